@@ -26,7 +26,7 @@ from playwright.sync_api import Browser, CDPSession, Page, sync_playwright
 
 from bench.serving import machine
 from tests.browser.conftest import QUIET, chromium
-from tests.browser.visitor import PICTURE, until
+from tests.browser.visitor import PICTURE
 from tests.support.service_process import ServiceProcess
 
 RESULTS = Path(__file__).parent / "PAGE.md"
@@ -225,7 +225,7 @@ def command(at: Place) -> list[Figure]:
             words.fill("undo" if turn % 2 else "add a pothole ahead")
             page.wait_for_timeout(250)  # as a person: what it will do is shown before Enter
             words.press("Enter")
-            until(page, "(many) => took.length > many", turn)
+            page.wait_for_function("(many) => took.length > many", arg=turn)
         took = sorted(page.evaluate("() => took"))
     return [
         Figure("from Enter to the change shown, p50 of 50", median(took), "ms", 50),
@@ -238,7 +238,7 @@ def load(at: Place) -> list[Figure]:
     took = []
     for _ in range(5):
         with at.page("/", FIRST_FRAME) as (page, _):
-            until(page, "() => window.firstFrame > 0")
+            page.wait_for_function("() => window.firstFrame > 0")
             took.append(page.evaluate("() => window.firstFrame"))
     return [
         Figure("first load to first live frame, p50 of 5", median(took), "ms", 1_000),

@@ -7,10 +7,11 @@ default that needs no server. Nothing else constructs them.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from collections.abc import AsyncIterator, Callable
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
 
 from fastapi import FastAPI
+from starlette.routing import BaseRoute
 
 from service.http import errors, openapi
 from service.http.conditional.answers import KeptAnswers
@@ -76,7 +77,8 @@ from service.version import VERSION
 from sim.plan.sandbox.client import without_waiting
 
 RESOURCES = (
-    state,  # those that are asked most come first, as routes are tried in this order
+    health,  # asked while the service starts: a route is built when it is first tried, so none before it
+    state,  # those that are asked most come next, as routes are tried in this order
     commands,
     step,
     questions,
@@ -104,7 +106,6 @@ RESOURCES = (
     forecast,
     regret,
     counterfactual,
-    health,
     metrics,
 )
 """The modules whose `router` the application has."""
@@ -158,6 +159,44 @@ def create_app(
     guard, answers = Guard(settings), KeptAnswers(store)
     context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers)
 
+    app = FastAPI(
+        title="Roadtalk",
+        version=VERSION,
+        description=_DESCRIPTION,
+        lifespan=_lifespan(context, aliases, model),
+        docs_url=None,
+        redoc_url=None,
+        redirect_slashes=False,
+    )
+    app.state.context = context
+    routes = [route for resource in RESOURCES for route in resource.router.routes]
+    _add_middleware(app, context, routes)
+    errors.install(app)
+    app.router.routes[:0] = routes
+    openapi.install(app)
+    docs.install(app)
+    pages.install(app)
+    guide.install(app)
+    app.router.routes.append(NO_WEBSOCKET)
+    return app
+
+
+def _add_middleware(app: FastAPI, context: Context, routes: list[BaseRoute]) -> None:
+    # The last one added is the outermost.
+    app.add_middleware(DirectRoutes, routes=routes)
+    app.add_middleware(CrossSiteCheck)
+    app.add_middleware(HostCheck, hosts=context.guard.hosts)
+    app.add_middleware(SecurityHeaders)
+    app.add_middleware(HeadMethod)
+    app.add_middleware(RequestId)
+
+
+def _lifespan(
+    context: Context, aliases: Aliases, model: LanguageModel | None
+) -> Callable[[FastAPI], AbstractAsyncContextManager[None]]:
+    """Opens what the service needs, and closes it within `STOP_S`."""
+    manager, store = context.manager, context.store
+
     async def close(sleeper: asyncio.Task[None]) -> None:
         await asyncio.wait([sleeper])
         await manager.close()
@@ -171,39 +210,14 @@ def create_app(
         await manager.open()
         await aliases.open()
         await context.answers.open()
-        clock.start()
+        context.clock.start()
         sleeper = asyncio.create_task(manager.evictor().run())
         try:
             with without_waiting():
                 yield
         finally:
             sleeper.cancel()
-            clock.stop()
+            context.clock.stop()
             await within(STOP_S, close(sleeper))
 
-    app = FastAPI(
-        title="Roadtalk",
-        version=VERSION,
-        description=_DESCRIPTION,
-        lifespan=lifespan,
-        docs_url=None,
-        redoc_url=None,
-        redirect_slashes=False,
-    )
-    app.state.context = context
-    routes = [route for resource in RESOURCES for route in resource.router.routes]
-    # The last one added is the outermost.
-    app.add_middleware(DirectRoutes, routes=routes)
-    app.add_middleware(CrossSiteCheck)
-    app.add_middleware(HostCheck, hosts=guard.hosts)
-    app.add_middleware(SecurityHeaders)
-    app.add_middleware(HeadMethod)
-    app.add_middleware(RequestId)
-    errors.install(app)
-    app.router.routes[:0] = routes
-    openapi.install(app)
-    docs.install(app)
-    pages.install(app)
-    guide.install(app)
-    app.router.routes.append(NO_WEBSOCKET)
-    return app
+    return lifespan

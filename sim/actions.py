@@ -28,6 +28,11 @@ Preference = Literal["avoid_potholes", "smooth_ride", "fastest", "cautious"]
 Wish = Literal[Preference, "balanced"]
 """A preference as it is said."""
 
+GoalName = Literal["harder", "easier", "surprise", "hard_but_solvable", "separates", "one_lane_free"]
+"""What can be looked for (`sim.goals`): actions that stand for those that were found."""
+Degree = Literal["little", "lot"]
+"""How much harder or easier; not said: in between."""
+
 Parameter = Literal[
     "weather",
     "time_of_day",
@@ -58,21 +63,79 @@ MAX_THINGS = 10_000
 Amount = Annotated[int, Ge(0), Le(MAX_THINGS)]
 Some = Annotated[int, Ge(1), Le(MAX_THINGS)]
 
+Lane = Annotated[int, Ge(1)]
+"""A lane by its number, 1 = leftmost."""
+Row = Annotated[int, Ge(0)]
+"""A row by its number, 0 = destination."""
+Direction = Literal["ahead", "behind", "left", "right"]
+
 _STRICT = {"extra": "forbid"}
+
+
+def _json_name(name: str) -> str:
+    """The key of a field in JSON: words that Python keeps for itself have an underscore after them here."""
+    return name.removesuffix("_")
+
+
+_STRICT_NAMES = {"extra": "forbid", "alias_generator": _json_name}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Landmark:
+    """The thing that a place is described from: the nearest of a kind, or one by its id."""
+
+    kind: PlaceableKind | None = None
+    nearest: Literal[True] | None = None
+    id: str | None = None
+
+    __pydantic_config__ = _STRICT
+
+    def __post_init__(self) -> None:
+        if (self.id is None) is (self.kind is None) or (self.id is None) is not (self.nearest is True):
+            raise ValueError("say either 'id', or 'kind' with 'nearest': true")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Where:
     """A place, by any of its parts; parts combine ("15 m ahead in the left lane")."""
 
-    lane: Literal["left", "middle", "right"] | Annotated[int, Ge(1)] | None = None
-    row: Annotated[int, Ge(0)] | None = None
+    lane: Literal["left", "middle", "right"] | Lane | None = None
+    lanes: tuple[Lane, Lane] | None = None
+    """from one lane to another, both included"""
+    row: Row | None = None
+    rows: tuple[Row, Row] | None = None
+    """from one row to another, both included"""
     cell: tuple[int, int] | None = None
-    side: Literal["ahead", "behind", "left", "right"] | None = None
+    side: Direction | Literal["beside"] | None = None
+    """seen from the first ego, or from `of`; beside: to its left or right"""
     distance_m: Annotated[float, Gt(0)] | None = None
     cells: Annotated[int, Ge(1)] | None = None
     nearest: Literal[True] | None = None
     id: str | None = None
+    each: Literal["lane"] | None = None
+    """a count holds for each lane: of those that are named, or of all"""
+    of: Landmark | None = None
+    """what side, distance and nearest are seen from, instead of the first ego"""
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Shift:
+    """So many cells to one side."""
+
+    side: Direction
+    cells: Annotated[int, Ge(1)] = 1
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OneThing:
+    """One thing of a kind: the nearest one at a place."""
+
+    kind: PlaceableKind
+    where: Where | None = None
 
     __pydantic_config__ = _STRICT
 
@@ -91,14 +154,16 @@ class Add:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Remove:
-    """Take `count` things of a kind (or `"all"`) off the road."""
+    """Take `count` things of a kind (or `"all"`, or `"half"` of them) off the road."""
 
     do: Literal["remove"] = "remove"
     kind: PlaceableKind | Literal["everything"]
-    count: Some | Literal["all"]
+    count: Some | Literal["all", "half"]
     where: Where | None = None
+    except_: Where | None = None
+    """things there stay; `except` in JSON"""
 
-    __pydantic_config__ = _STRICT
+    __pydantic_config__ = _STRICT_NAMES
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -108,6 +173,63 @@ class SetCount:
     do: Literal["set_count"] = "set_count"
     kind: PlaceableKind
     count: Amount
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MoveThings:
+    """Put things that are on the road somewhere else on it; they stay what they are."""
+
+    do: Literal["move"] = "move"
+    kind: PlaceableKind
+    count: Some | Literal["all"]
+    where: Where | None = None
+    to: Where | None = None
+    """where they are to be"""
+    by: Shift | None = None
+    """how far from where they are"""
+
+    __pydantic_config__ = _STRICT
+
+    def __post_init__(self) -> None:
+        if (self.to is None) is (self.by is None):
+            raise ValueError("say exactly one of 'to' and 'by'")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Swap:
+    """Let two things change places."""
+
+    do: Literal["swap"] = "swap"
+    first: OneThing
+    second: OneThing
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Replace:
+    """Put things of another kind (`by`) in the places of things."""
+
+    do: Literal["replace"] = "replace"
+    kind: PlaceableKind
+    count: Some | Literal["all"]
+    where: Where | None = None
+    by: PlaceableKind
+
+    __pydantic_config__ = _STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Copy:
+    """Put another thing like it on the road, for each of some things: beside it, or where it is said."""
+
+    do: Literal["copy"] = "copy"
+    kind: PlaceableKind
+    count: Some | Literal["all"]
+    where: Where | None = None
+    to: Where | None = None
 
     __pydantic_config__ = _STRICT
 
@@ -204,4 +326,22 @@ class Prefer:
     __pydantic_config__ = _STRICT
 
 
-WorldAction = Add | Remove | SetCount | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer
+Rearranging = MoveThings | Swap | Replace | Copy
+"""Actions on things that are on the road already."""
+
+WorldAction = (
+    Add
+    | Remove
+    | SetCount
+    | MoveThings
+    | Swap
+    | Replace
+    | Copy
+    | Scenario
+    | Reset
+    | SetMode
+    | Drive
+    | Set
+    | Adjust
+    | Prefer
+)

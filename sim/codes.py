@@ -53,6 +53,10 @@ EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
         "no_such_ego": ("none-there", ("id",)),
         "of_another_kind": ("none-there", ("id", "kind")),
         "road_is_gone": ("none-there", ()),
+        "same_thing": ("bad-place", ("id",)),
+        "same_kind": ("bad-place", ("kind",)),
+        "each_is_for_new_things": ("bad-place", ()),
+        "would_fall_off": ("does-not-fit", ("count", "setting")),
         "too_few": ("too-few", ("count", "kind", "place")),
         "other_vehicles_not_available": ("not-available", ()),
         "scenario_not_available": ("not-available", ("problem",)),
@@ -62,6 +66,11 @@ EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
         "no_more_or_less": ("out-of-range", ("setting",)),
         "at_its_limit": ("out-of-range", ("setting", "now")),
         "traffic_by_steps_only": ("out-of-range", ("choices",)),
+        "goal_not_found": ("does-not-fit", ("tried", "driven")),
+        "goal_no_way": ("does-not-fit", ()),
+        "goal_after_end": ("none-there", ()),
+        "goal_among_egos": ("not-available", ()),
+        "goal_same_planner": ("out-of-range", ()),
     }
 )
 """Codes of a `sim.session.errors.EditError`: the category of each, and its facts.

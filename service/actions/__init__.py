@@ -15,6 +15,7 @@ from service.actions.action import (
     load,
 )
 from service.actions.evaluation import Advise, Evaluate, FindWorst, ScenarioParts
+from service.actions.goals import Goal, Style
 from service.actions.questions import (
     QUESTIONS,
     Choosable,
@@ -27,6 +28,7 @@ from service.actions.questions import (
 from service.actions.steering import (
     Chat,
     ChatKind,
+    Drop,
     Hide,
     Load,
     Name,
@@ -38,6 +40,7 @@ from service.actions.steering import (
     Save,
     Show,
     Step,
+    Steps,
     Ticks,
     Undo,
     ViewName,
@@ -55,9 +58,11 @@ __all__ = [
     "Chat",
     "ChatKind",
     "Choosable",
+    "Drop",
     "Evaluate",
     "FindWorst",
     "Forget",
+    "Goal",
     "Hide",
     "HistoryName",
     "Load",
@@ -75,6 +80,8 @@ __all__ = [
     "ScenarioParts",
     "Show",
     "Step",
+    "Steps",
+    "Style",
     "Teach",
     "Term",
     "Ticks",

@@ -10,11 +10,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
-from annotated_types import Ge, MaxLen, MinLen
+from annotated_types import Ge, Le, MaxLen, MinLen
 from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
 from service.actions.evaluation import Advise, Evaluate, FindWorst
+from service.actions.goals import Goal, Style
 from service.actions.questions import (
     HISTORY_KEYS,
     QUESTIONS,
@@ -28,6 +29,7 @@ from service.actions.questions import (
 from service.actions.steering import (
     STRICT,
     Chat,
+    Drop,
     Hide,
     Load,
     Pause,
@@ -47,6 +49,7 @@ from sim.types import Move
 Phrase = Annotated[str, MinLen(1), MaxLen(80)]
 MAX_MEANT = 50
 """How many actions a what-if or a taught phrase may hold."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ask:
@@ -68,6 +71,8 @@ class Ask:
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None
     """how far back a question about the past goes, instead of from `tick`"""
+    count: Annotated[int, Ge(1), Le(1000)] | None = None
+    """how many of the latest changes are meant"""
 
     __pydantic_config__ = STRICT
 
@@ -132,6 +137,8 @@ def _refuse_kinds(why: str, actions: Iterable[Action], kinds: tuple[type, ...]) 
 
 Action: TypeAlias = Annotated[
     WorldAction
+    | Goal
+    | Style
     | Pause
     | Resume
     | Undo
@@ -149,7 +156,8 @@ Action: TypeAlias = Annotated[
     | Load
     | Record
     | Teach
-    | Forget,
+    | Forget
+    | Drop,
     Discriminator("do"),
 ]
 
@@ -173,5 +181,5 @@ def load(values: Any) -> tuple[Action, ...]:
 
 def dump(actions: tuple[Action, ...]) -> list[dict[str, Any]]:
     """Actions as JSON values, in the contract's form: what was not said is absent."""
-    values: list[dict[str, Any]] = ACTIONS.dump_python(actions, mode="json", exclude_none=True)
+    values: list[dict[str, Any]] = ACTIONS.dump_python(actions, mode="json", exclude_none=True, by_alias=True)
     return values

@@ -22,6 +22,9 @@ QuestionName = Literal[
     "options",
     "term",
     "history",
+    "styles",
+    "changes",
+    "pending",
 ]
 HistoryName = Literal["closest_call", "summary", "since", "between", "seen"]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
@@ -124,6 +127,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
     "history": QuestionTraits(("what", "tick", "until", "ticks"), ("what",), runs_episodes=True),
+    "styles": QuestionTraits(),
+    "changes": QuestionTraits(("count", "tick")),
+    "pending": QuestionTraits(),
 }
 
 HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {

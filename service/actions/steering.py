@@ -11,6 +11,9 @@ STRICT = {"extra": "forbid"}
 """Pydantic's setting for every action: unknown keys are refused."""
 
 Ticks = Annotated[int, Ge(1), Le(10_000)]
+Steps = Annotated[int, Ge(1), Le(10_000)] | Literal["all"]
+"""How many changes to undo or to redo."""
+
 Name = Annotated[str, MinLen(1), MaxLen(80)]
 ViewName = Literal["road", "schematic", "occupancy", "plan", "log", "potholes", "sensors", "path", "metrics"]
 
@@ -35,18 +38,20 @@ class Resume:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Undo:
-    """Take back the latest change, as if it had never been said."""
+    """Take back the latest changes (`steps`, by default one), as if they had never been said."""
 
     do: Literal["undo"] = "undo"
+    steps: Steps | None = None
 
     __pydantic_config__ = STRICT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Redo:
-    """Say again what was undone last."""
+    """Say again what was undone last (`steps` changes, by default one)."""
 
     do: Literal["redo"] = "redo"
+    steps: Steps | None = None
 
     __pydantic_config__ = STRICT
 
@@ -112,6 +117,15 @@ class Load:
 
     do: Literal["load"] = "load"
     name: Name
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drop:
+    """Drop the question that is pending, so that nothing answers it any more."""
+
+    do: Literal["drop"] = "drop"
 
     __pydantic_config__ = STRICT
 

@@ -15,8 +15,10 @@ from typing import Final, cast
 
 from service.actions.action import ACTION_TYPES, Action, Ask, Forget, Teach
 from service.actions.evaluation import Advise, Evaluate, FindWorst
+from service.actions.goals import Goal, Style
 from service.actions.steering import (
     Chat,
+    Drop,
     Hide,
     Load,
     Pause,
@@ -32,14 +34,18 @@ from service.actions.steering import (
 from sim.actions import (
     Add,
     Adjust,
+    Copy,
     Drive,
+    MoveThings,
     Prefer,
     Remove,
+    Replace,
     Reset,
     Scenario,
     Set,
     SetCount,
     SetMode,
+    Swap,
     WorldAction,
 )
 
@@ -93,6 +99,10 @@ class ActionTraits:
     """whether ticks are run for it"""
     takes_decisions: bool = False
     """whether planners decide again for it"""
+    searches: bool = False
+    """whether it may take seconds, so that it is done in a thread and not tried beforehand"""
+    stands_for_others: bool = False
+    """whether it is stored as the actions that it came to"""
     tried: bool = False
     """whether it is quick enough to be tried on a copy, to know if it is possible now"""
     model: ModelUse = ModelUse.NEVER
@@ -100,13 +110,17 @@ class ActionTraits:
     separates_settings: bool = False
     """whether a setting may be one thing before it and another after it: time passes, or something is told"""
     amendable: bool = False
-    """whether a correction ("no, three") can take it back and do it anew"""
+    """whether a correction ("no, three") can do it anew, after an undo where it is a step of undo"""
     additive: bool = False
     """whether saying it again comes on top of what was done before"""
     small_talk: bool = False
     """whether it is only manners, which say nothing beside a request"""
     idempotent: bool = False
     """whether saying it twice in a row for emphasis is saying it once"""
+    loses: bool = False
+    """whether something that is there may be gone afterwards: never suggested for something unrelated"""
+    gathers: bool = False
+    """whether several requests may say its parts: "run 200 episodes and compare A* with DWA" is one action"""
 
 
 def _world(
@@ -115,7 +129,9 @@ def _world(
     tried: bool = False,
     amendable: bool = False,
     additive: bool = False,
+    gathers: bool = False,
     what_if: WhatIf = WhatIf.IMAGINED,
+    loses: bool = False,
 ) -> ActionTraits:
     """An action that changes the world, which is always a step of undo."""
     return ActionTraits(
@@ -125,27 +141,43 @@ def _world(
         tried=tried,
         amendable=amendable,
         additive=additive,
+        gathers=gathers,
         what_if=what_if,
+        loses=loses,
     )
 
 
 def _view() -> ActionTraits:
-    return ActionTraits(changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT)
+    return ActionTraits(
+        changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT, amendable=True
+    )
 
 
 _TABLE: Final[Mapping[type, ActionTraits]] = {
     Add: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    Remove: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
-    SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
-    Scenario: _world(ModelUse.CONFIRMED),
-    Reset: _world(ModelUse.CONFIRMED),
-    SetMode: _world(ModelUse.UNCONFIRMED, tried=True),
-    Drive: _world(ModelUse.UNCONFIRMED),
+    Remove: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True, loses=True),
+    SetCount: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, loses=True),
+    MoveThings: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
+    Swap: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
+    Replace: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, loses=True),
+    Copy: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True, additive=True),
+    Scenario: _world(ModelUse.CONFIRMED, gathers=True, loses=True),
+    Reset: _world(ModelUse.CONFIRMED, loses=True),
+    SetMode: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
+    Drive: _world(ModelUse.UNCONFIRMED, amendable=True),
     Set: _world(ModelUse.UNCONFIRMED, amendable=True),
     Adjust: _world(ModelUse.UNCONFIRMED, amendable=True, additive=True),
     Prefer: _world(ModelUse.UNCONFIRMED, amendable=True),
-    Pause: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True),
-    Resume: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True),
+    Goal: ActionTraits(
+        undo_step=True,
+        searches=True,
+        stands_for_others=True,
+        model=ModelUse.CONFIRMED,
+        what_if=WhatIf.REFUSED,
+    ),
+    Style: ActionTraits(undo_step=True, stands_for_others=True, tried=True, model=ModelUse.UNCONFIRMED),
+    Pause: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True, amendable=True),
+    Resume: ActionTraits(tried=True, model=ModelUse.UNCONFIRMED, idempotent=True, amendable=True),
     Step: ActionTraits(
         runs_ticks=True, takes_decisions=True, separates_settings=True, model=ModelUse.UNCONFIRMED
     ),
@@ -155,6 +187,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         takes_decisions=True,
         model=ModelUse.UNCONFIRMED,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Redo: ActionTraits(
         tried=True,
@@ -170,27 +203,39 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         separates_settings=True,
         model=ModelUse.CONFIRMED,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Show: _view(),
     Hide: _view(),
     Ask: ActionTraits(
         changes_session=False,
         is_question=True,
+        amendable=True,
         separates_settings=True,
         model=ModelUse.ALWAYS,
         what_if=WhatIf.INVALID,
     ),
-    Chat: ActionTraits(
-        changes_session=False, small_talk=True, model=ModelUse.ALWAYS, what_if=WhatIf.INVALID
-    ),
+    Chat: ActionTraits(changes_session=False, small_talk=True, model=ModelUse.ALWAYS, what_if=WhatIf.INVALID),
     Advise: ActionTraits(
-        changes_session=False, is_question=True, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT
+        changes_session=False,
+        is_question=True,
+        amendable=True,
+        model=ModelUse.ALWAYS,
+        what_if=WhatIf.NO_EFFECT,
     ),
     Evaluate: ActionTraits(
-        offered=False, separates_settings=True, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT
+        offered=False,
+        separates_settings=True,
+        model=ModelUse.CONFIRMED,
+        what_if=WhatIf.NO_EFFECT,
+        gathers=True,
     ),
     FindWorst: ActionTraits(
-        offered=False, separates_settings=True, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT
+        offered=False,
+        separates_settings=True,
+        model=ModelUse.CONFIRMED,
+        what_if=WhatIf.NO_EFFECT,
+        gathers=True,
     ),
     Save: ActionTraits(separates_settings=True, model=ModelUse.NEVER, what_if=WhatIf.NO_EFFECT),
     Load: ActionTraits(
@@ -199,9 +244,11 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         separates_settings=True,
         model=ModelUse.NEVER,
         what_if=WhatIf.REFUSED,
+        loses=True,
     ),
     Record: ActionTraits(offered=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     Teach: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
+    Drop: ActionTraits(changes_session=False, model=ModelUse.ALWAYS, what_if=WhatIf.NO_EFFECT),
     Forget: ActionTraits(changes_aliases=True, model=ModelUse.NEVER, what_if=WhatIf.INVALID),
 }
 
@@ -247,6 +294,19 @@ def imagined_actions(actions: tuple[Action, ...]) -> list[WorldAction]:
     """Those of some actions that make a difference in an imagined run."""
     return [
         cast(WorldAction, action)
-        for action in actions
+        for action in spelled_out(actions)
         if is_world_action(action) and traits_of(action).what_if is WhatIf.IMAGINED
     ]
+
+
+def spelled_out(actions: tuple[Action, ...]) -> tuple[Action, ...]:
+    """The actions with what each style stands for in its place. Raises `KeyError` for an unknown style."""
+    if not any(isinstance(action, Style) for action in actions):
+        return actions
+    from service.styles import styles  # which reads actions itself
+
+    return tuple(
+        part
+        for action in actions
+        for part in (styles()[action.style] if isinstance(action, Style) else (action,))
+    )

@@ -35,6 +35,25 @@ class Correction(Model):
     read: Annotated[str, Field(alias="to")]
 
 
+@dataclass(frozen=True, slots=True)
+class ChoiceModel(Model):
+    """One reading of an ambiguous sentence."""
+
+    text: str
+    actions: tuple[ActionJson, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class PendingQuestion(Model):
+    """A question of the service that the next sentence may answer."""
+
+    text: str
+    """What was said."""
+    question: str
+    choices: tuple[ChoiceModel, ...]
+    """To answer, say the number of one or some of its words; "never mind" drops the question."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer(Answered):
     """The answer to a question; the facts it was made from depend on the question."""

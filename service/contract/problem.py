@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict
 
-from service.contract.command import ActionJson, Interpreter
+from service.contract.command import ChoiceModel, Interpreter, PendingQuestion
 from service.contract.model import DocumentedAs, Model
 
 
@@ -17,14 +17,6 @@ class FieldProblemModel(Model):
 
     field: str
     message: str
-
-
-@dataclass(frozen=True, slots=True)
-class ChoiceModel(Model):
-    """One reading of an ambiguous sentence."""
-
-    text: str
-    actions: tuple[ActionJson, ...]
 
 
 class ProblemDocument(BaseModel):
@@ -48,5 +40,7 @@ class ProblemDocument(BaseModel):
     understood: tuple[str, ...] | None = None
     suggestions: tuple[str, ...] | None = None
     choices: tuple[ChoiceModel, ...] | None = None
+    pending: PendingQuestion | None = None
+    """The question, where the session waits for the answer."""
     sequence: int | None = None
     """The session's sequence number, if it was changed meanwhile."""

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from service.contract import notebook_html as html
+from service.contract.command import PendingQuestion
 from service.contract.model import Answered, Items, Model, ModeName, OutcomeName, Page, Tick, TickNumber
 from service.contract.state import PlaybackSpeed
 
@@ -46,6 +47,8 @@ class Session(Answered):
     """What to tell whoever opens it, where these are not the rules of today."""
     sentence: str | None
     """What to say for a road like this one; null where no sentence describes it."""
+    pending: PendingQuestion | None = None
+    """The question that the session asked last, while nobody has answered it."""
     parent: Parent | None
     """Of a fork, or a session that a link opened; else null."""
     links: Mapping[str, str]

@@ -27,6 +27,16 @@ _EXCLUSIVE = (
     {"cells", "distance_m"},
     {"nearest", "cell"},
     {"nearest", "lane"},
+    {"nearest", "lanes"},
+    {"nearest", "rows"},
+    {"nearest", "of"},
+    {"lanes", "lane"},
+    {"lanes", "cell"},
+    {"rows", "row"},
+    {"rows", "cell"},
+    {"each", "lane"},
+    {"each", "cell"},
+    {"each", "nearest"},
 )
 
 
@@ -43,6 +53,19 @@ class Parameters:
     def fits(self, parameter: str, dimension: str) -> bool:
         """Whether an amount in this dimension can be a value of the parameter."""
         return dimension in self.takes.get(parameter, ())
+
+
+def merge_places(parts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """One place of several parts. Raises `CannotBuild` where they contradict each other."""
+    where: dict[str, Any] = {}
+    for part in parts:
+        for key, value in part.items():
+            if where.get(key, value) != value:
+                raise CannotBuild("two places")
+            where[key] = value
+    if any(pair <= where.keys() for pair in _EXCLUSIVE):
+        raise CannotBuild("a place said twice over")
+    return where | {key: sorted(where[key]) for key in ("lanes", "rows") if key in where}
 
 
 def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
@@ -77,6 +100,14 @@ class _Maker:
         if isinstance(template, str):
             whole: list[dict[str, Any]] = self._slot(template.removeprefix("$"), None)
             return whole
+        pointed = [edge for edge in self._filled.of("meant", "all_others") if len(edge.sense.value) > 1]
+        if pointed:
+            each = [
+                edge._replace(sense=edge.sense._replace(value=(one,)))
+                for edge in pointed
+                for one in edge.sense.value
+            ]
+            return [self.action(template, turn) for turn in each]
         named = [name for edge in self._filled.slots for name in _ids(edge)]
         if not named:
             return [self.action(template, None)]
@@ -126,11 +157,22 @@ class _Maker:
             case "parts":
                 return self.parts()
             case "planners":
-                return [edge.sense.value for edge in self._filled.of("planner")] or _ABSENT
+                return self._planners(attribute) or _ABSENT
             case "eval_scenario":
                 return self.parts(without=("planner",)) or _ABSENT
             case "asked_move":
                 return self._asked_move()
+            case "steps_or_one":
+                steps = [
+                    edge.sense.value for edge in self._filled.of("steps") if edge.sense.value is not None
+                ]
+                return steps[0] if steps else 1
+            case "first" | "second":
+                return self._one_of_two(name)
+            case "becomes":
+                return self._becomes()
+            case "less":
+                return -self._slot(f"{attribute}.count", None)
             case "concept" if turn:
                 return turn.concept
             case "each" if turn:
@@ -141,20 +183,46 @@ class _Maker:
         if len(slots) > 1 and len({repr(edge.sense.value) for edge in slots}) > 1:
             raise CannotBuild(f"two values for {name}")
         value = slots[0].sense.value
+        if name in ("meant", "all_others"):
+            value = getattr(value[0], attribute)
+            return _ABSENT if value is None else value
         if isinstance(value, Amount):
-            return {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}[attribute or "count"]
+            if attribute == "several" and value.count in (0, 1):
+                raise CannotBuild("one thing is no number of them")
+            told = {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}
+            return told["count" if attribute in ("", "several") else attribute]
         return value[attribute] if attribute else value
+
+    def _one_of_two(self, which: str) -> dict[str, Any]:
+        """One of two things that change places, in the order said."""
+        things = sorted(self._filled.of("meant"), key=lambda edge: edge.start)
+        if len(things) != 2 or any(len(e.sense.value) > 1 or e.sense.value[0].count != 1 for e in things):
+            raise CannotBuild("not two things")
+        thing = things[0 if which == "first" else 1].sense.value[0]
+        where = {} if thing.where is None else {"where": thing.where}
+        return {"kind": thing.kind, **where}
+
+    def _becomes(self) -> str:
+        """The kind that things become; "a cone" is what one becomes, "cones" what many become."""
+        things = [thing for edge in self._filled.of("meant") for thing in edge.sense.value]
+        (edge,) = self._filled.of("becomes")
+        if edge.sense.value.many is (len(things) == 1 and things[0].count == 1):
+            raise CannotBuild("one becomes one, many become many")
+        return str(edge.sense.value.kind)
+
+    def _planners(self, attribute: str) -> list[Any]:
+        """The planners in the order said; as `pair` or `reversed` there must be two of them."""
+        planners = [edge.sense.value for edge in self._filled.of("planner")]
+        if attribute and len(planners) != 2:
+            raise CannotBuild("not two planners")
+        return planners[::-1] if attribute == "reversed" else planners
 
     def where(self) -> dict[str, Any] | None:
         """The place, of all its parts; parts that contradict each other are no place."""
         where: dict[str, Any] = {}
         for edge in self._filled.of("place", "side", "nearest"):
             value = edge.sense.value
-            part = value if isinstance(value, dict) else {"side": value}
-            for key, value in part.items():
-                if where.get(key, value) != value:
-                    raise CannotBuild("two places")
-                where[key] = value
+            where = merge_places([where, value if isinstance(value, dict) else {"side": value}])
         for edge in self._filled.of("length"):
             if "distance_m" in where:
                 raise CannotBuild("two distances")
@@ -163,9 +231,7 @@ class _Maker:
             if "cells" in where:
                 raise CannotBuild("two distances")
             where["cells"] = edge.sense.value.count
-        if any(pair <= where.keys() for pair in _EXCLUSIVE):
-            raise CannotBuild("a place said twice over")
-        return where or None
+        return merge_places([where]) or None
 
     def _amount(self) -> int | float:
         """The one number said, in a unit its parameter takes."""
@@ -190,7 +256,7 @@ class _Maker:
         is_share = self._parameters.fits(parameter, "fraction")
         part: float = self._slot("fraction", None) / 100 if "percent" in name else self._slot("part_of", None)
         if name == "share":
-            if not is_share or self._parameters.fits(parameter, "times"):
+            if not (is_share or self._parameters.fits(parameter, "seconds")):
                 raise CannotBuild(f"{parameter} is no share")
             return part
         if "percent" in name and is_share:

@@ -8,22 +8,23 @@ potholes"). Negated fragments are understood and then left out.
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Protocol
+from typing import Any
 
-from service.grammar.fragments import BUT, EXCEPT, OR, STOP, Fragment
+from service.grammar.composition import Composition, Matcher, asks, within
+from service.grammar.fragments import BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, Fragment
 from service.grammar.frames import Filled
 from service.grammar.lattice import NUMBER, Edge, Lattice
 from service.grammar.lexicon import Sense
-from service.grammar.noun_phrases import QUANTITY, Amount, understood_nouns
-from service.grammar.paths import ALLOWS, NEGATION, Stretch
+from service.grammar.noun_phrases import QUANTITY, Amount
+from service.grammar.paths import NEGATION
+from service.grammar.stretches import Context, Stretches
 from service.grammar.work_budget import WorkBudget
 
 MAX_JOINED = 16
 """How many fragments one listing clause may have."""
 
-_LENIENT = ("counted", "the_many", "bare_many")
 _TOGETHER = frozenset({"pause", "stop", "and", "but"})
 """Separators inside a listing clause; any other ends it."""
 _WHOLE = (".all", ".the_many", ".bare_many", ".those")
@@ -31,10 +32,6 @@ _WHOLE = (".all", ".the_many", ".bare_many", ".those")
 
 _FURTHER = ("more", "another")
 _PLACED = ("place", "side", "length")
-_PAUSE = "pause"
-
-_NEGATED = frozenset({"ing", "negated"})
-"""Forms in place in a negated part: "don't go adding anything"."""
 
 CONTRAST = "contrast"
 EVERYTHING = "everything"
@@ -53,26 +50,13 @@ class Clause:
     """the separator before it"""
     leans: bool = False
     """whether it leans on what was said before this sentence"""
+    instead: tuple[Clause, ...] = ()
+    """what its parts mean alone, where that is another thing: which of them was meant is asked"""
 
     @property
     def supposes(self) -> str | None:
         """What it takes for granted beyond its actions."""
         return self.filled.frame.supposes
-
-
-@dataclass(frozen=True, slots=True)
-class Context:
-    """What a clause hands on to the next: its verb, and the thing it was about."""
-
-    verb: tuple[Edge, ...] = ()
-    noun: Edge | None = None
-    verbless: bool = True
-    negated: bool = False
-    everything: bool = False
-    distant: bool = False
-    """Whether it comes from an earlier sentence: then only "two more" and the like may lean on it."""
-    placed: bool = False
-    """Whether it ended with a place: a number alone after it may be of more things, or of another place."""
 
 
 @dataclass(slots=True)
@@ -83,15 +67,6 @@ class Divided:
     failed: Fragment | None = None
 
 
-class Matcher(Protocol):
-    """What finds the frame for a stretch of tokens."""
-
-    def match(
-        self, stretch: Stretch, *, verbless: bool | None = None
-    ) -> tuple[Filled, list[dict[str, Any]]] | None:
-        """The best frame, filled, and its actions; None when none fits or two fit equally well."""
-
-
 class Divider:
     """Divides the fragments of one sentence into clauses."""
 
@@ -100,10 +75,8 @@ class Divider:
     ) -> None:
         self._matcher = matcher
         self._lattice = lattice
-        self._vague = vague
-        self._moods = moods
-        self._work = work
-        self._starting = [_start(starting) for starting in lattice.edges]
+        self._stretches = Stretches(lattice, vague, moods, work)
+        self._composition = Composition(matcher, self._stretches)
 
     def divide(self, parts: Sequence[Fragment], kind: str | None = None) -> Divided:
         """The clauses of the fragments, or those up to the first that nothing fits.
@@ -117,9 +90,7 @@ class Divider:
             context = Context(noun=spoken, distant=True)
         at = 0
         while at < len(parts):
-            clause, used = self._join(parts, at, context)
-            if clause is None:
-                clause, used = self._single(parts[at], context), 1
+            clause, used = self._next(parts, at, context)
             if clause is None:
                 divided.failed = parts[at]
                 return divided
@@ -128,26 +99,90 @@ class Divider:
             at += used
         return divided
 
+    def _next(self, parts: Sequence[Fragment], at: int, context: Context) -> tuple[Clause | None, int]:
+        """The clause that starts with a part, and how many parts it has."""
+        end = len(parts)
+        while True:
+            clause, used = self._join(parts[:end], at, context)
+            if clause is None:
+                return self._single(parts[at], context), 1
+            if clause.negated:
+                return clause, used
+            said = parts[at : at + used]
+            heads = self._composition.heads(clause.filled, said)
+            if not heads:
+                swallowed = self._composition.swallows((clause.filled, clause.actions), said)
+                return (self._or_apart(clause, said, context) if swallowed else clause), used
+            apart = self._requests(said, heads, context)
+            if apart is None or _same(apart, clause):
+                return clause, used
+            own = self._composition.verb_of_its_own(said[0]) is not None
+            optional = _optional(clause, apart)
+            leans = bool(context.verb) and self._composition.alone(said[0]) is None
+            if not (own or optional or context.verb):
+                return clause, used
+            if own or said[heads[0]].after == STOP or (optional and leans):
+                end = at + heads[0]
+                continue
+            return replace(clause, instead=tuple(apart)), used
+
+    def _requests(
+        self, parts: Sequence[Fragment], heads: Sequence[int], context: Context
+    ) -> list[Clause] | None:
+        """The parts as several requests, which begin at those of `heads`; None where one is none."""
+        found: list[Clause] = []
+        for first, last in zip([0, *heads], [*heads, len(parts)], strict=True):
+            at = first
+            while at < last:
+                clause, used = self._join(parts[:last], at, context)
+                if clause is None:
+                    clause, used = self._single(parts[at], context), 1
+                if clause is None:
+                    return None
+                found.append(replace(clause, after=parts[at].after))
+                context = _context(clause, context)
+                at += used
+        return found
+
+    def _or_apart(self, clause: Clause, parts: Sequence[Fragment], context: Context) -> Clause:
+        """A listing, with what its parts are as clauses of their own; without, where they are none."""
+        apart = self._requests(parts, range(1, len(parts)), context)
+        apart = apart and [one for each in apart for one in each.instead or (each,)]
+        if apart is None or _same(apart, clause) or not _optional(clause, apart):
+            return clause
+        return replace(clause, instead=tuple(apart))
+
     def _join(self, parts: Sequence[Fragment], at: int, context: Context) -> tuple[Clause | None, int]:
         """The longest listing clause that starts here, of two fragments or more."""
         last = at + 1
         while last < min(len(parts), at + MAX_JOINED) and parts[last].after in _TOGETHER:
+            if parts[last].after != PAUSE and self._begins_request(parts, last):
+                break
             last += 1
         if parts[at].after == OR:
             return None, 0
         for end in range(last, at + 1, -1):
             start, stop = parts[at].start, parts[end - 1].end
-            stretch = self._stretch(start, stop, joined=True)
+            stretch = self._stretches.make(start, stop, joined=True)
             found = self._matcher.match(stretch, verbless=None if context.verbless else False)
             if found is not None and not self._each_whole(parts[at:end]):
                 return Clause(start, stop, *found), end - at
             if found is None and context.verb and not context.negated:
                 leaning = self._matcher.match(
-                    self._stretch(start, stop, context, joined=True), verbless=False
+                    self._stretches.make(start, stop, context, joined=True), verbless=False
                 )
                 if leaning is not None:
                     return Clause(start, stop, *leaning), end - at
         return None, 0
+
+    def _begins_request(self, parts: Sequence[Fragment], at: int) -> bool:
+        """Whether a part only begins the sentence that it stands in: "10 metres ahead, add a cone"."""
+        if at + 1 == len(parts) or parts[at + 1].after != PAUSE:
+            return False
+        if self._composition.alone(parts[at]) or not self._composition.verb_of_its_own(parts[at + 1]):
+            return False
+        both = self._stretches.make(parts[at].start, parts[at + 1].end, joined=True)
+        return self._matcher.match(both, verbless=False) is not None
 
     def _each_whole(self, parts: Sequence[Fragment]) -> bool:
         """Whether each sentence in it is a request by itself: then they are several."""
@@ -155,7 +190,7 @@ class Divider:
         if len(begins) == 1:
             return False
         whole = (parts[a:b] for a, b in zip(begins, [*begins[1:], len(parts)], strict=True))
-        stretches = (self._stretch(s[0].start, s[-1].end, joined=len(s) > 1) for s in whole)
+        stretches = (self._stretches.make(s[0].start, s[-1].end, joined=len(s) > 1) for s in whole)
         return all(self._matcher.match(stretch, verbless=False) is not None for stretch in stretches)
 
     def _single(self, part: Fragment, context: Context) -> Clause | None:
@@ -165,27 +200,32 @@ class Divider:
         start, end = part.start, part.end
         if context.negated and context.verb and self._contrasts(part):
             instead = replace(context, negated=False)
-            found = self._matcher.match(self._stretch(start, end, instead), verbless=False)
+            found = self._matcher.match(self._stretches.make(start, end, instead), verbless=False)
             if found is not None:
                 return Clause(start, end, *found)
-        plain = self._stretch(start, end)
+        plain = self._stretches.make(start, end)
         found = self._matcher.match(plain, verbless=False)
         if found is not None:
-            return Clause(start, end, *found, negated=found[0].frame.leaves_out)
+            clause = Clause(start, end, *found, negated=found[0].frame.leaves_out)
+            belongs = self._composition.also_leans(part, found, context)
+            return clause if belongs is None else replace(clause, instead=(Clause(start, end, *belongs),))
         if NEGATION in plain.concepts:
             return self._negate(part, context)
         if part.after == BUT or (context.verb and self._says_again(part)):
             return None
         if context.placed and self._only_number(start, end):
             return None
-        if context.verb:
-            leaning = self._stretch(start, end, context)
+        if context.verb and not self._calls(part):
+            leaning = self._stretches.make(start, end, context)
             found = self._matcher.match(leaning, verbless=False)
             if found is None and context.noun is not None and context.noun.concept.endswith(_WHOLE):
                 again = Context((*context.verb, context.noun), None, negated=context.negated)
-                found = self._matcher.match(self._stretch(start, end, again), verbless=False)
+                found = self._matcher.match(self._stretches.make(start, end, again), verbless=False)
+            if found is not None and context.negated:
+                return Clause(start, end, found[0], [], negated=True)
             if found is not None:
-                return Clause(start, end, found[0], [] if context.negated else found[1], context.negated)
+                own = self._composition.differs(part, found)
+                return Clause(start, end, *found, instead=(Clause(start, end, *own),) if own else ())
         if context.verbless and not (context.negated and (context.verb or part.after == OR)):
             found = self._matcher.match(plain, verbless=True)
             if found is not None:
@@ -193,17 +233,21 @@ class Divider:
             if context.noun is not None and self._may_lean(part, context):
                 noun = Context(noun=context.noun)
                 if context.distant:
-                    found = self._matcher.match(self._stretch(start, end, noun), verbless=False)
+                    found = self._matcher.match(self._stretches.make(start, end, noun), verbless=False)
                     if found is not None:
                         return Clause(start, end, *found)
-                found = self._matcher.match(self._stretch(start, end, noun), verbless=True)
+                found = self._matcher.match(self._stretches.make(start, end, noun), verbless=True)
                 if found is not None:
                     return Clause(start, end, *found, leans=context.distant)
         return None
 
+    def _calls(self, part: Fragment) -> bool:
+        """Whether a part only calls for attention: "and then, please tell me, …"."""
+        return any(e.concept == INTERJECTION and e.end == part.end for e in self._lattice.edges[part.start])
+
     def _says_again(self, part: Fragment) -> bool:
         """Whether a part only says how many were meant: "a cone, just one" is not two."""
-        if part.after != _PAUSE or not self._contrasts(part):
+        if part.after != PAUSE or not self._contrasts(part):
             return False
         return not any(
             isinstance(edge.sense.value, Amount) or edge.concept in _PLACED
@@ -216,7 +260,7 @@ class Divider:
 
     def _may_lean(self, part: Fragment, context: Context) -> bool:
         """Whether an amount without a noun may be of what was spoken of: not in "a pothole, just one"."""
-        if context.distant or part.after == _PAUSE:
+        if context.distant or part.after == PAUSE:
             return self._says_more(part.start, part.end) or (
                 not context.distant and self._says_where(part.start, part.end)
             )
@@ -246,7 +290,9 @@ class Divider:
         if self._excepts(part, context):
             return None
         for given in (Context(negated=True), Context(context.verb, context.noun, negated=True)):
-            found = self._matcher.match(self._stretch(start, end, given, negation=True), verbless=False)
+            found = self._matcher.match(
+                self._stretches.make(start, end, given, negation=True), verbless=False
+            )
             if found is not None:
                 return Clause(start, end, found[0], [], negated=True)
         return None
@@ -262,67 +308,6 @@ class Divider:
             whole and context.noun is not None and context.noun.sense.value.of in kinds
         )
 
-    def _stretch(
-        self,
-        start: int,
-        end: int,
-        context: Context | None = None,
-        *,
-        joined: bool = False,
-        negation: bool = False,
-    ) -> Stretch:
-        """The tokens to be read, with what the context adds to them."""
-        context = context or Context()
-        edges: dict[int, Sequence[Edge]] = {}
-        forms = set(self._moods)
-        concepts: set[str] = {edge.sense.concept for edge in context.verb}
-        longest = 1
-        self._work.spend(end - start)
-        for at in range(start, end):
-            reach, starting, of = self._starting[at]
-            if reach > end:
-                starting = [edge for edge in starting if edge[1] <= end]
-                of = {edge[2][0] for edge in starting}
-            if starting:
-                edges[at] = starting
-                concepts |= of
-                longest = max(longest, reach - at)
-        if ALLOWS in concepts:
-            for inside in edges.values():
-                forms.update([str(edge.sense.value) for edge in inside if edge.sense.concept == ALLOWS])
-        if context.noun is not None:
-            for edge in understood_nouns(self._lattice, start, end, context.noun, self._vague):
-                edges[edge.start] = [*edges.get(edge.start, ()), edge]
-                concepts.add(edge.sense.concept)
-                longest = max(longest, edge.end - edge.start)
-        moods = self._moods | (_NEGATED if context.negated else frozenset())
-        forms |= moods
-        if context.negated:
-            for at, starting in edges.items():
-                lenient = [other for edge in starting for other in _lenient(edge)]
-                if lenient:
-                    edges[at] = [*starting, *lenient]
-                    concepts.update([edge.concept for edge in lenient])
-        return Stretch(
-            start,
-            end,
-            edges,
-            frozenset(concepts),
-            frozenset(forms),
-            moods,
-            context.verb,
-            joined,
-            negation,
-            context.negated,
-            self._work,
-            longest,
-        )
-
-
-def _start(edges: Sequence[Edge]) -> tuple[int, Sequence[Edge], Set[str]]:
-    """How far the edges that start at a token reach, the edges, and their concepts."""
-    return max([edge[1] for edge in edges], default=0), edges, {edge[2][0] for edge in edges}
-
 
 def _context(clause: Clause, before: Context) -> Context:
     frame = clause.filled.frame
@@ -337,14 +322,26 @@ def _context(clause: Clause, before: Context) -> Context:
     last = max(clause.filled.slots, key=lambda edge: edge.end, default=None)
     placed = last is not None and last.concept in _PLACED
     return Context(
-        verb, noun, frame.verbless or not frame.inherits, clause.negated, everything, placed=placed
+        verb,
+        noun,
+        frame.verbless or not frame.inherits,
+        clause.negated,
+        everything,
+        placed=placed,
+        asks=asks(clause.actions),
     )
 
 
-def _lenient(edge: Edge) -> list[Edge]:
-    """Any amount may stand for any other in a negated part: "don't add any cars" is about adding."""
-    if not isinstance(edge.sense.value, Amount):
-        return []
-    name = edge.sense.concept.partition(".")[0]
-    amount = Amount(edge.sense.value.of, 1)
-    return [Edge(edge.start, edge.end, Sense(f"{name}.{form}", amount)) for form in _LENIENT]
+def _same(apart: Sequence[Clause], joint: Clause) -> bool:
+    """Whether several requests do no more than one does."""
+    actions = [action for clause in apart for action in clause.actions]
+    return actions == joint.actions or within(actions, joint.actions)
+
+
+def _optional(joint: Clause, apart: Sequence[Clause]) -> bool:
+    """Whether a listing needs none but some of its parts: then the others are not there for it.
+
+    "Pothole 2 m ahead, speed 40 km/h" is one question, which neither part is alone.
+    """
+    verbs = {action["do"] for clause in apart for action in clause.actions}
+    return all(action["do"] in verbs for action in joint.actions)

@@ -42,7 +42,7 @@ def contradiction(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction 
     """The first contradiction of an utterance, if there is one."""
     if len(clauses) < 2:
         return None
-    return _settings(clauses) or _switches(clauses) or _left_out(clauses, lattice)
+    return _settings(clauses) or _switches(clauses) or _left_out(clauses, lattice) or _none_of(clauses)
 
 
 def _settings(clauses: Sequence[Clause]) -> Contradiction | None:
@@ -142,6 +142,23 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
                 for action in other.actions
             ):
                 return Contradiction((other, clause))
+    return None
+
+
+def _none_of(clauses: Sequence[Clause]) -> Contradiction | None:
+    """ "five potholes and no cars": without a verb of adding, it may be that no cars shall be there."""
+    for before, clause in pairwise(clauses):
+        if not clause.filled.frame.leaves_out or not before.actions:
+            continue
+        adding = before.filled.frame.inherits
+        if any(edge.concept in adding and edge.concept.startswith("v.") for edge in before.filled.slots):
+            continue
+        said = [action for each in clauses for action in each.actions]
+        kinds = dict.fromkeys(
+            edge.sense.value.of for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)
+        )
+        none = [{"do": "set_count", "kind": kind, "count": 0} for kind in kinds]
+        return Contradiction((before, clause), ([*said, *none], said))
     return None
 
 

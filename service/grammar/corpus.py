@@ -10,7 +10,9 @@ from typing import Any, get_args
 
 from service.actions import QUESTIONS, ChatKind, Choosable, MetricName, Term, ViewName, load
 from service.grammar.sentences import Sentences, Unsayable
+from service.styles import styles
 from sim.actions import (
+    GoalName,
     Layout,
     Parameter,
     RoadType,
@@ -163,6 +165,16 @@ def _rest() -> Iterator[dict[str, Any]]:
         yield {"do": "chat", "kind": kind}
     yield {"do": "evaluate", "runs": 500, "planners": ["astar", "priority"]}
     yield {"do": "find_worst", "runs": 200, "planner": "astar"}
+    for goal in get_args(GoalName):
+        if goal != "separates":
+            yield {"do": "goal", "goal": goal}
+    for goal in ("harder", "easier"):
+        yield {"do": "goal", "goal": goal, "degree": "little"}
+        yield {"do": "goal", "goal": goal, "degree": "lot"}
+    yield {"do": "goal", "goal": "separates", "planners": ["astar", "priority"]}
+    for style in styles():
+        yield {"do": "style", "style": style}
+    yield {"do": "ask", "about": "styles"}
     yield {"do": "advise", "hazard": "pothole", "distance_m": 20, "speed_kmh": 50}
     yield {"do": "save", "name": "monday demo"}
     yield {"do": "load", "name": "monday demo"}

@@ -1,8 +1,9 @@
 """Corrections of an earlier utterance: "no, three" after "add five potholes" was done.
 
-A correction never changes what was done. Where the corrected request is known, two sentences are offered:
-undo and do it anew, or do it as well. Otherwise the refusal says to undo first. Corrections within one
-utterance are in `repairs`.
+Where the corrected request is known, the last one is taken back and done anew, which is one step of undo. A
+whole request that would come on top of the last one ("no, add three") is asked about: instead of it, or as
+well. Otherwise the refusal says to undo first. Corrections within one utterance are in `repairs`; sentences
+that lean on the one before otherwise, in `follow_up`.
 """
 
 from __future__ import annotations
@@ -10,11 +11,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Protocol
 
-from service.actions import Action, Undo
+from service.actions import Action
 from service.actions.table import traits_of
 from service.grammar.data import LanguageData
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import DROPPED
+from service.grammar.said_before import can_be_corrected, done_anew, said_before
 from service.grammar.sentences import Unsayable
 from service.grammar.span_patterns import REPAIR
 from service.grammar.topic import ALONE, Topic
@@ -55,15 +57,16 @@ def answer_correction(
     """The answer to a sentence that begins as a correction does; `sure`: with words that are nothing else."""
     if isinstance(parsed, Refused) and parsed.reason == "not_understood":
         if (actions := _redo_with_correction(language, plain, topic, work)) is not None:
-            return _question(language, text, actions) or _refusal(language, text, parsed)
+            return Understood(text, done_anew(topic, actions))
         return _refusal(language, text, parsed) if sure else parsed
     if (
         isinstance(parsed, Understood)
         and sure
         and _on_top(topic.actions, parsed.actions)
+        and topic.steps
         and not topic.undone
     ):
-        return _question(language, text, parsed.actions) or parsed
+        return _question(language, text, topic, parsed.actions) or parsed
     return parsed
 
 
@@ -72,11 +75,10 @@ def _redo_with_correction(
 ) -> tuple[Action, ...] | None:
     """The last actions with the correction applied; None where that is not known."""
     done = topic.actions
-    if not done or topic.undone or not all(traits_of(action).amendable for action in done):
+    if not can_be_corrected(topic) or not all(traits_of(action).amendable for action in done):
         return None
-    try:
-        said = language.sentence(done)
-    except Unsayable:
+    said = said_before(language, topic, work)
+    if said is None:
         return None
     parsed = language.read(f"{said}, {plain}", ALONE, work, asking=False)
     if not isinstance(parsed, Understood) or len(parsed.actions) != len(done) or parsed.actions == done:
@@ -84,11 +86,13 @@ def _redo_with_correction(
     return parsed.actions
 
 
-def _question(language: LanguageReader, text: str, actions: tuple[Action, ...]) -> Ambiguous | None:
+def _question(
+    language: LanguageReader, text: str, topic: Topic, actions: tuple[Action, ...]
+) -> Ambiguous | None:
     """Whether what was done shall be taken back before this is done."""
     try:
         choices = tuple(
-            Choice(language.sentence(each), each) for each in ((Undo(do="undo"), *actions), actions)
+            Choice(language.sentence(each), each) for each in (done_anew(topic, actions), actions)
         )
     except Unsayable:
         return None

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from service.grammar.answer_words import Answers
 from service.grammar.build import Parameters
 from service.grammar.frames import Frame, FrameError, read_frames
 from service.grammar.lexicon import Lexicon
@@ -33,6 +34,7 @@ MESSAGES = frozenset(
         "no_referent",
         "which",
         "more_of_what",
+        "together_or_apart",
     )
 )
 """What the engine itself says."""
@@ -61,8 +63,12 @@ class LanguageData:
     """how actions are said back; empty in a language that cannot"""
     vague: int
     number_words: frozenset[str]
+    answers: Answers
+    """how questions are answered, and what begins a sentence that leans on the one before"""
     nouns: Mapping[str, str]
     """for each concept that may only stand with a value of its own kind ("weather"), that kind"""
+    free: frozenset[str]
+    """concepts that frames may take and have no use for, because they say nothing more"""
 
     def knows(self, word: str) -> bool:
         """Whether a word means anything, alone or in a phrase."""
@@ -77,6 +83,7 @@ class Documents:
     numbers: Mapping[str, Any]
     typos: Mapping[str, Any]
     sentences: Mapping[str, Any]
+    answers: Mapping[str, Any]
     frames: Mapping[str, Any]
     """`sets`, `agree`, and the `frames` of all intents together"""
 
@@ -113,12 +120,13 @@ def _documents(folder: Path) -> Documents:
             if name in frames["frames"]:
                 raise FrameError(f"frame {name} is there twice")
             frames["frames"][name] = content
-    said_back = folder / "sentences.yaml"
+    said_back, answers = folder / "sentences.yaml", folder / "answers.yaml"
     return Documents(
         words=words,
         numbers=read_yaml(folder / "numbers.yaml"),
         typos=read_yaml(folder / "typos.yaml"),
         sentences=read_yaml(said_back) if said_back.is_file() else {},
+        answers=read_yaml(answers) if answers.is_file() else {},
         frames=frames,
     )
 
@@ -152,5 +160,7 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         sentences=documents.sentences,
         vague=int(words["vague"]),
         number_words=numbers.words(),
+        answers=Answers.from_data(documents.answers),
         nouns=documents.frames["agree"],
+        free=frozenset(str(documents.frames.get("free", "")).split()),
     )

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from service.actions import Action, dump
+from service.grammar.accounting import withhold
 from service.grammar.cache import ParseCache
 from service.grammar.compiled import check_fit, load_language
 from service.grammar.correction import answer_correction, opening_words
@@ -31,7 +32,7 @@ from service.grammar.references import add_known
 from service.grammar.repairs import ALWAYS, DROPPED, Repair
 from service.grammar.sentences import Sentences
 from service.grammar.span_patterns import REPAIR
-from service.grammar.suggestions import Suggestions
+from service.grammar.suggestions import Meanings, Saying, Suggestions, meanings_of
 from service.grammar.tokens import Token, normalise, restore_marks, tokenise, with_text
 from service.grammar.topic import ALONE, Phrases, Topic
 from service.grammar.typos import Typos
@@ -110,6 +111,7 @@ class Language:
         kept = find_names(tokens, self._lexicon, restore_marks(text, plain), topic)
         tokens, corrections = self._fix_typos(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
+        withhold(lattice, self.data.free)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)
         uncovered = bool(lattice.uncovered())
@@ -151,7 +153,7 @@ class Language:
         if asking and readings:
             return Ambiguous(text, self.data.messages["which"], tuple(readings))
         message = self.data.messages["not_understood"].format(phrases=f'"{phrase}"')
-        suggestions = self.suggestions.nearest(text, content_of(lattice)) if asking else ()
+        suggestions = self.suggestions.nearest(text, meanings_of(lattice)) if asking else ()
         return Refused(text, "not_understood", message, (phrase,), (), suggestions)
 
     def sentence(self, actions: Sequence[Action]) -> str:
@@ -212,9 +214,9 @@ class Language:
         return Typos(self.data.typos, words, self.data.numbers.words(), same)
 
     def _meant(self, word: str) -> frozenset[tuple[str, str]]:
-        """All that a word alone can mean."""
+        """All that a word alone can mean, that the glossary explains it aside."""
         senses = self._lexicon.senses_of((word,))
-        return frozenset((sense.concept, repr(sense.value)) for sense in senses)
+        return frozenset((sense.concept, repr(sense.value)) for sense in senses if sense.concept != "term")
 
     def _nouns(self, word: str) -> frozenset[str]:
         """What a word alone is a noun for, singular and plural taken together."""
@@ -245,21 +247,36 @@ class Language:
     @cached_property
     def suggestions(self) -> Suggestions:
         """The example sayings of all frames, ready to be ranked; made at the first refusal."""
-        sayings = [say for frame in self.data.frames for say in frame.says if self._suggests(say)]
-        return Suggestions((say, self.concepts(say)) for say in sayings)
+        said = ((say, frame) for frame in self.data.frames for say in frame.says)
+        sayings = (
+            Saying(say, frame, actions, self.meanings(say))
+            for say, frame in said
+            if (actions := self._offered_actions(say))
+        )
+        return Suggestions(sayings, self.data.nouns, self._offered)
 
-    def _suggests(self, say: str) -> bool:
-        if self._offered is None:
-            return True
+    def _offered_actions(self, say: str) -> tuple[Action, ...]:
+        """What a saying does; nothing where it cannot be offered."""
         try:
             # Not `parse`: a refusal there names suggestions, which are what is being made here.
             parse = self.read(say, ALONE, WorkBudget(), asking=False)
         except BudgetExceededError:
-            return False
-        return isinstance(parse, Understood) and all(map(self._offered, parse.actions))
+            return ()
+        if not isinstance(parse, Understood):
+            return ()
+        return parse.actions if self._offered is None or all(map(self._offered, parse.actions)) else ()
+
+    def scan(self, tokens: Sequence[Token]) -> Lattice:
+        """All that any stretch of some tokens can mean."""
+        return self._scanner.scan(tokens, {})
 
     def concepts(self, text: str) -> frozenset[str]:
         """The content concepts that occur in a text."""
         plain = normalise(text)
         tokens = tokenise(plain, self.data.contractions)
         return content_of(self._scanner.scan(tokens, {}))
+
+    def meanings(self, text: str) -> tuple[Meanings, ...]:
+        """What each stretch of a text may mean."""
+        tokens = tokenise(normalise(text), self.data.contractions)
+        return meanings_of(self._scanner.scan(tokens, {}))

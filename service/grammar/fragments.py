@@ -11,6 +11,7 @@ from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.noun_phrases import COLON
 from service.grammar.paths import SEPARATOR
 
+PAUSE = "pause"
 STOP = "stop"
 OR = "or"
 EXCEPT = "except"

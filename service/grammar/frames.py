@@ -43,6 +43,8 @@ class Frame:
     verbless: bool = False
     rank: int = 0
     ask: Ask | None = None
+    keeps: frozenset[str] = frozenset()
+    """Concepts of parts that belong to it although they are requests elsewhere: "…, what do I do"."""
     last: bool = False
     """whether of two values of a kind the last is meant: "replace A* with Dijkstra" """
     supposes: str | None = None
@@ -51,6 +53,8 @@ class Frame:
     """Whether the speaker may be the one to do it: "let me …", "can I …"."""
     agree: Mapping[str, str] = field(default_factory=dict)
     """Concept → the concept that must be there with it."""
+    drops: frozenset[str] = frozenset()
+    """Concepts that it takes although its actions do not say them: with them the request is the same."""
     accepted: frozenset[str] = frozenset()
     """Every concept the frame has a use for."""
 
@@ -85,7 +89,7 @@ def read_frames(data: Mapping[str, Any]) -> list[Frame]:
 
 def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: Mapping[str, str]) -> Frame:
     known = {"say", "needs", "takes", "do", "per", "forms", "inherits", "joins", "verbless", "rank", "ask"}
-    known |= {"speaker", "leaves_out", "only_negated", "supposes", "last"}
+    known |= {"speaker", "leaves_out", "only_negated", "supposes", "last", "drops", "keeps"}
     if odd := set(data) - known:
         raise FrameError(f"frame {name}: no such fields: {', '.join(sorted(odd))}")
     many: set[str] = set()
@@ -104,10 +108,12 @@ def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: M
         per=tuple(str(data.get("per", "")).split()),
         forms=frozenset(str(data.get("forms", "")).split()),
         inherits=frozenset(_concepts(str(data.get("inherits", "")), sets, set())),
+        keeps=frozenset(_concepts(str(data.get("keeps", "")), sets, set())),
         last=bool(data.get("last", False)),
         supposes=data.get("supposes"),
         speaker=bool(data.get("speaker", True)),
         agree=agree,
+        drops=frozenset(_concepts(str(data.get("drops", "")), sets, set())),
         leaves_out=bool(data.get("leaves_out", False)),
         only_negated=bool(data.get("only_negated", False)),
         joins=bool(data.get("joins", False)),

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from service.grammar.accounting import CLAUSE
 from service.grammar.lattice import GLUE, Name
 from service.grammar.lexicon import Lexicon, Sense
 from service.grammar.tokens import Token
@@ -178,9 +179,11 @@ def _inside_word(tokens: Sequence[Token], at: int, said: str) -> bool:
 
 
 def _fits(tokens: Sequence[Token], at: int, start: int, end: int, lexicon: Lexicon) -> bool:
-    """Whether words may be a name: after "save this as" any may, after "load" not "five cars"."""
+    """Whether words may be a name: after "save as" any but "demo if it works", after "load" not "five cars"."""
     short = _only(SHORT, lexicon, tokens, at, start)
     if short and end - start > MAX_SHORT:
+        return False
+    if any(_is(lexicon, word, CLAUSE) for word in tokens[start + 1 : end]):
         return False
     senses = [s for stop, found, _ in lexicon.matches(tokens, at, {}, {}) if stop == start for s in found]
     saves = any(sense.concept == CAPTURE and sense.value == SAVES for sense in senses)

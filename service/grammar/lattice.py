@@ -50,6 +50,14 @@ class Edge(NamedTuple):
         return self.sense.concept
 
 
+class Withheld(NamedTuple):
+    """Readings that words cannot have beside what stands after them; tokens `[start, end)` are both."""
+
+    start: int
+    end: int
+    edges: tuple[Edge, ...]
+
+
 @dataclass(slots=True)
 class Lattice:
     """The edges of a sentence by the token they start at, longest first once sorted."""
@@ -58,6 +66,8 @@ class Lattice:
     edges: list[list[Edge]] = field(default_factory=list)
     concepts: set[str] = field(default_factory=set)
     """Every concept that was found in the sentence, before nouns were given their quantities."""
+    withheld: list[Withheld] = field(default_factory=list)
+    """What was taken out of the edges because of a marker (see `accounting`)."""
 
     def all(self) -> Iterator[Edge]:
         """Every edge."""
@@ -168,15 +178,19 @@ class Scanner:
         ordinals: Mapping[int, int],
     ) -> Iterator[Edge]:
         """A number, or with its unit when one follows: "15 m" is the concept `length` and 15."""
-        best: Edge | None = None
+        best = Edge(at, number.end, Sense(NUMBER, number.value))
+        also: tuple[str, ...] = ()
         if number.end < len(tokens):
             for end, senses, _ in self._lexicon.matches(tokens, number.end, numbers, ordinals):
                 for sense in senses:
-                    if sense.concept == UNIT and (best is None or end > best.end):
-                        dimension, factor = sense.value
+                    if sense.concept == UNIT and end > best.end:
+                        dimension, factor, *more = sense.value
+                        also = tuple(more)
                         value = number.value if factor == 1 else round(number.value * factor, 9)
                         best = Edge(at, end, Sense(dimension, value))
-        yield best if best is not None else Edge(at, number.end, Sense(NUMBER, number.value))
+        yield best
+        for dimension in also:
+            yield Edge(at, best.end, Sense(dimension, best.sense.value))
 
 
 def _inside_number(numbers: Mapping[int, Found], at: int) -> bool:

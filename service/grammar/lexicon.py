@@ -177,6 +177,11 @@ class Lexicon:
         """Whether any phrase contains the word."""
         return word in self.words
 
+    def leads_on(self, word: str) -> bool:
+        """Whether several phrases of more than one word begin with it: "on", "the"."""
+        node = self.root.next.get(word)
+        return node is not None and len(node.next) > 1
+
     def senses_of(self, words: Words) -> tuple[Sense, ...]:
         """The senses of exactly this phrase."""
         node: Node | None = self.root

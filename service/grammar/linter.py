@@ -1,27 +1,32 @@
 """Finds defects of a language's data: most of them whenever it is loaded, all of them by `Language.check()`.
 
 A defect is a phrase with two values of one concept, a phrase that is there already, a frame that nothing can
-reach, a concept that no frame takes, an example saying that does not parse, or a question with fewer than two
-choices. Whether the words are good English is not checked.
+reach, a concept that no frame takes, a concept that a frame takes and drops, an example saying that does not
+parse, or a question with fewer than two choices. Whether the words are good English is not checked.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from service.grammar.accounting import MARKERS
 from service.grammar.data import LanguageData
+from service.grammar.frame_use import dropped
 from service.grammar.frames import Frame
 from service.grammar.lattice import GLUE, NAME, NUMBER, UNIT
 from service.grammar.lexicon import SECOND
 from service.grammar.noun_phrases import COLON, NOUN, QUANTITY
 from service.grammar.parse_types import Ambiguous, Parse, Understood
 from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR, SPEAKER
+from service.grammar.pointing import POINTING
 
 ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
     | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
     | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
     | {"refers", "taught", "repeated", "repair", "contrast", "chat", "chat_filler"}
+    | POINTING
+    | MARKERS
 )
 """Concepts the engine itself gives a use."""
 
@@ -42,10 +47,10 @@ AMOUNT_FORMS = frozenset(
         "the_many",
     }
     | {"the_counted", "bare_one", "bare_many", "more_bare", "more_bare_one", "fewer_bare", "post"}
-    | {"those_counted", "asked"}
+    | {"those_counted", "asked", "half", "too_many", "too_few"}
     | {"id", "last", "last_counted"}
 )
-DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "real_times"})
+DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "rate", "real_times"})
 
 
 def flaws(data: LanguageData) -> list[str]:
@@ -56,7 +61,8 @@ def flaws(data: LanguageData) -> list[str]:
 
 def defects(data: LanguageData, parse: Callable[[str], Parse]) -> list[str]:
     """Every defect found, as sentences; empty when the data are fit."""
-    return [*flaws(data), *(defect for frame in data.frames for defect in _sayings(frame, parse))]
+    sayings = (defect for frame in data.frames for defect in _sayings(frame, parse))
+    return [*flaws(data), *dropped(data.frames, data.free), *sayings]
 
 
 def _known(data: LanguageData, concept: str) -> bool:

@@ -9,6 +9,8 @@ from service.grammar.build import CannotBuild, Parameters, build
 from service.grammar.frames import Filled, Frame
 from service.grammar.paths import Stretch, fill
 
+WANT = "want"
+
 
 class _Reach:
     """Which frames, by descending rank, could have all they need of some concepts.
@@ -51,6 +53,9 @@ class Frames:
     def __init__(self, frames: Sequence[Frame], parameters: Parameters) -> None:
         ranked = sorted(frames, key=lambda frame: -frame.rank)
         self._parameters = parameters
+        stands = (concept for frame in frames if frame.verbless for concept in frame.accepted)
+        self.nominal = frozenset(each for each in stands if not each.startswith("v.") and each != WANT)
+        """The concepts of what requests are about; none of them alone says what to do."""
         self._eligible = {
             (joins, verbless): _Reach(
                 [

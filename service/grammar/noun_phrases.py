@@ -3,7 +3,7 @@
 A noun and the quantities just before it become one edge whose concept says which kind of amount
 it is: `thing.counted` (five potholes), `.more` (two more), `.exact` (exactly nine), `.all` (every),
 `.the_many`, `.the_one`, `.that`, `.those`, `.bare_many`, `.bare_one`, `.any`, `.any_one`, `.none`, `.post`
-("potholes: 10"). Frames say which of these they take, and so what a definite plural means.
+("potholes: 10"), `.too_many`, `.too_few`. Frames say which of these they take, and so what a definite plural means.
 """
 
 from __future__ import annotations
@@ -154,8 +154,19 @@ def _joined(gathered: _Gathered, noun: Edge, vague: int) -> Edge:
 def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float | None]:
     """The kind of amount and the count, from the words before the noun."""
     said, number = gathered.said - {"filler"}, gathered.number
+    if "other" in said:  # "the other two cars" are no two more
+        if said & {"the", "those", OF_THE, "all"}:
+            return (ODD, None)
+        said = said - {"other"} | {"more"}
     if ODD in said:
         return (ODD, None)
+    if "half" in said or "both" in said:
+        if number is not None or len(said) > 1:
+            return (ODD, None)
+        return ("half", None) if "half" in said else ("the_counted", 2)
+    if said & {"too_many", "too_few"}:
+        (excess,) = said & {"too_many", "too_few"} if len(said) == 1 and number is None else (ODD,)
+        return (excess, None)
     if "how" in said:
         return ("asked", None)
     if "no" in said:

@@ -7,6 +7,9 @@ from typing import Literal, TypeAlias
 
 from service.actions import Action
 
+Span: TypeAlias = tuple[int, int]
+"""Characters `[start, end)` of a text in its normal form."""
+
 Reason = Literal["not_understood", "negation", "empty", "impossible"]
 
 
@@ -27,6 +30,8 @@ class Understood:
     corrections: tuple[Correction, ...] = ()
     supposes: str | None = None
     """what a question takes for granted beyond its actions: "why did you crash" a `crash`"""
+    alignment: tuple[tuple[Span, ...], ...] = ()
+    """for each action the words that made it; empty where one part of the sentence corrects another"""
 
 
 @dataclass(frozen=True, slots=True)

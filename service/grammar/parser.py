@@ -7,12 +7,14 @@ this file and not the reverse. No word of any language is here either.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Protocol
 
 from pydantic import ValidationError
 
 from service.actions import Action, load
 from service.actions.table import verbs_where
+from service.grammar.accounting import alignment, restored
 from service.grammar.clauses import Clause, Divided, Divider
 from service.grammar.contradictions import Contradiction, contradiction
 from service.grammar.data import LanguageData
@@ -20,16 +22,27 @@ from service.grammar.fragments import Fragment, fragments
 from service.grammar.lattice import GLUE, Lattice
 from service.grammar.matching import Frames
 from service.grammar.noun_phrases import QUANTITY, Amount, add_noun_phrases
-from service.grammar.parse_types import Ambiguous, Choice, Correction, Parse, Reason, Refused, Understood
-from service.grammar.paths import ALLOWS, SEPARATOR
+from service.grammar.parse_types import (
+    Ambiguous,
+    Choice,
+    Correction,
+    Parse,
+    Reason,
+    Refused,
+    Span,
+    Understood,
+)
+from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR
+from service.grammar.pointing import add_pointing
 from service.grammar.references import Unclear, add_referents
 from service.grammar.sentences import Sentences, Unsayable
 from service.grammar.small_talk import small_talk
 from service.grammar.subordinate import read_all
-from service.grammar.suggestions import Suggestions
+from service.grammar.suggestions import Suggestions, meanings_of
 from service.grammar.tokens import Token
 from service.grammar.topic import Topic
-from service.grammar.work_budget import WorkBudget
+from service.grammar.unparsed_span import Gap, GapFinder
+from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, Remove
 
 CHOICE_STEPS = 10
@@ -68,14 +81,21 @@ def content_of(lattice: Lattice) -> frozenset[str]:
     )
 
 
-def _once(clauses: Sequence[Clause]) -> list[dict[str, Any]]:
-    """All actions, without what is only said again for emphasis: "stop, hold on" pauses once."""
+def _once(
+    clauses: Sequence[Clause], tokens: Sequence[Token]
+) -> tuple[list[dict[str, Any]], tuple[tuple[Span, ...], ...]]:
+    """All actions and the words of each, without what is only said again: "stop, hold on" pauses once."""
     values: list[dict[str, Any]] = []
+    spans: list[tuple[Span, ...]] = []
     for clause in clauses:
         again = bool(values) and clause.after in _EMPHASIS and clause.actions == values[-1:]
-        if not (again and clause.actions[0]["do"] in _STEADY):
+        said = alignment(clause.filled, clause.actions, tokens)
+        if again and clause.actions[0]["do"] in _STEADY:
+            spans[-1] += said[0]
+        else:
             values += clause.actions
-    return values
+            spans += said
+    return values, tuple(spans)
 
 
 _STEADY = verbs_where(lambda traits: traits.idempotent)
@@ -116,11 +136,12 @@ class Reading:
         self._suggests = asking
         unknown = self._lattice.uncovered()
         if unknown:
-            return self._refuse(self._stretches(unknown), ())
+            return self._refuse(self._stretches(unknown), (), unknown=unknown)
         if asking and (manners := small_talk(self._lattice)):
             return Understood(self._text, load(manners), self._corrections)
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
+        add_pointing(self._lattice)
         divided = read_all(self._lattice, 0, self._lattice.size, self._divide)
         if isinstance(divided, Fragment):
             return self._refuse([self._written(divided.start, divided.end)], (), asking=asking)
@@ -132,9 +153,11 @@ class Reading:
         )
         if question is not None:
             return self._ask(question) if asking else self._refuse([self._plain], ())
+        if (unsure := next((clause for clause in clauses if clause.instead), None)) is not None:
+            return self._together_or_apart(clauses, unsure, asking=asking)
         if (both := contradiction(clauses, self._lattice)) is not None:
             return self._answer_contradiction(both, asking=asking)
-        values = _once(clauses)
+        values, spans = _once(clauses, self._tokens)
         if not values:
             return self._refusal("negation", self._messages["negation"])
         try:
@@ -144,7 +167,7 @@ class Reading:
         if self._topic.removed and clauses[0].leans:
             return self._more_of_what(actions) if asking else self._refuse([self._plain], ())
         supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
-        return Understood(self._text, actions, self._corrections, supposes)
+        return Understood(self._text, actions, self._corrections, supposes, spans)
 
     def _divide(self, start: int, end: int, moods: frozenset[str]) -> Divided:
         """The clauses of tokens `[start, end)`, with these forms in place."""
@@ -176,6 +199,21 @@ class Reading:
         phrases = tuple(dict.fromkeys(self._written(each.start, each.end) for each in both.clauses))
         quoted = self._messages["both"].join(f'"{_shorten(phrase)}"' for phrase in phrases)
         return self._refusal("impossible", self._messages["contradiction"].format(phrases=quoted), phrases)
+
+    def _together_or_apart(self, clauses: Sequence[Clause], unsure: Clause, *, asking: bool) -> Parse:
+        """The question whether parts belong together or are each a request of its own."""
+        at = clauses.index(unsure)
+        together = [replace(clause, instead=()) for clause in clauses]
+        apart = [*together[:at], *unsure.instead, *together[at + 1 :]]
+        try:
+            choices = [self._choice(_once(each, self._tokens)[0]) for each in (together, apart)]
+        except (Unsayable, ValidationError):  # nothing to choose from
+            choices = []
+        if asking and len(choices) > 1:
+            return Ambiguous(self._text, self._messages["which"], tuple(choices))
+        phrase = self._written(unsure.start, unsure.end)
+        message = self._messages["together_or_apart"].format(phrase=_shorten(phrase))
+        return self._refusal("not_understood", message, (phrase,))
 
     def _choice(self, values: list[dict[str, Any]]) -> Choice:
         """Actions to choose, with a sentence that means them."""
@@ -258,18 +296,57 @@ class Reading:
         part = divided.failed
         if part is None:
             return self._refuse([self._plain.strip()], understood)
+        if lost := self._lost(part):
+            return self._refuse(lost, understood)
         failed = self._written(part.start, part.end)
         if any(_impossible_number(edge.sense.value) for edge in self._lattice.between(part.start, part.end)):
             return self._refusal("impossible", self._messages["impossible"].format(phrase=failed), (failed,))
-        return self._refuse([failed], understood, asking=asking)
+        return self._refuse([failed], understood, asking=asking, failed=part)
 
-    def _refuse(self, unparsed: list[str], understood: tuple[str, ...], *, asking: bool = False) -> Parse:
+    def _gap(self, unknown: Sequence[int], failed: Fragment | None) -> Gap | None:
+        """The smallest stretches that hold what is unknown, or make a part fail, and what is left without."""
+        if not self._suggests:
+            return None
+        finder = GapFinder(
+            self._plain,
+            self._tokens,
+            self._lattice,
+            lambda text, work: self._language.read(text, self._topic, work, asking=False),
+            self._language.data.lexicon.leads_on,
+        )
+        return finder.find(unknown, failed)
+
+    def _lost(self, part: Fragment) -> list[str]:
+        """The markers of a part with what they stand with, where the part would be read without them."""
+        inside = [each for each in self._lattice.withheld if part.start <= each.start < part.end]
+        for tried in [*((each,) for each in inside[:MAX_UNPARSED]), inside]:
+            with restored(self._lattice, tried, part.end):
+                try:
+                    read = read_all(self._lattice, 0, self._lattice.size, self._divide)
+                except BudgetExceededError:
+                    return []
+            if not isinstance(read, Fragment) and (read.failed is None or read.failed.start > part.start):
+                return [self._written(each.start, min(each.end, part.end)) for each in tried]
+        return []
+
+    def _refuse(
+        self,
+        unparsed: list[str],
+        understood: tuple[str, ...],
+        *,
+        asking: bool = False,
+        unknown: Sequence[int] = (),
+        failed: Fragment | None = None,
+    ) -> Parse:
         if asking and (which := self._which()) is not None:
             return which
+        gap = self._gap(unknown, failed) if unknown or failed else None
+        if gap is not None:
+            unparsed = [self._written(*span) for span in gap.spans]
         shown = unparsed[:MAX_UNPARSED]
         quoted = self._messages["and"].join(f'"{_shorten(phrase)}"' for phrase in shown)
         message = self._messages["not_understood"].format(phrases=quoted)
-        return self._refusal("not_understood", message, tuple(shown), understood)
+        return self._refusal("not_understood", message, tuple(shown), understood, gap)
 
     def _refusal(
         self,
@@ -277,16 +354,22 @@ class Reading:
         message: str,
         unparsed: tuple[str, ...] = (),
         understood: tuple[str, ...] = (),
+        gap: Gap | None = None,
     ) -> Refused:
         suggestions: tuple[str, ...] = ()
-        if self._suggests:
-            suggestions = self._language.suggestions.nearest(self._plain, content_of(self._lattice))
+        if self._suggests and reason != "negation":
+            meanings, negated = meanings_of(self._lattice), NEGATION in self._lattice.concepts
+            suggestions = self._language.suggestions.nearest(self._plain, meanings, harmless=negated, gap=gap)
         return Refused(self._text, reason, message, unparsed, understood, suggestions)
 
     def _stretches(self, unknown: list[int]) -> list[str]:
         """The stretches with unknown words; unknown words with only glue between them are one."""
         stretches: list[tuple[int, int]] = []
+        marked = {each.start: each.end for each in self._lattice.withheld}
         for at in unknown:
+            if at in marked:
+                stretches.append((at, marked[at]))
+                continue
             if stretches and self._only_glue(stretches[-1][1], at):
                 stretches[-1] = (stretches[-1][0], at + 1)
             else:

@@ -16,9 +16,10 @@ from service.grammar.lattice import Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
 from service.grammar.parse_types import Parse, Refused, Understood
+from service.grammar.said_before import take_back
 from service.grammar.tokens import Token
 from service.grammar.topic import Phrases, Topic
-from sim.actions import Where
+from sim.actions import MoveThings, Remove, Replace, Swap, Where
 from sim.types import kind_of
 
 REFERS = "refers"
@@ -31,6 +32,12 @@ MAX_CANDIDATES = 5
 _REFERRING = frozenset(
     (REFERS, "thing.that", "thing.those", "thing.the_one", "thing.last", "thing.last_counted")
 )
+_MOVED = (Remove, MoveThings, Replace, Swap)
+"""Actions after which "put it back" is to undo them."""
+
+_WHOLE = frozenset(("other", "others"))
+"""References of several words that are small words of other requests by themselves."""
+
 _OPPOSITE = {"left": "right", "right": "left"}
 
 
@@ -78,6 +85,10 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     unclear: list[Unclear] = []
     for edge in [edge for starting in lattice.edges for edge in starting if edge[2][0] in _REFERRING]:
         found = _pronoun(edge, lattice, topic) if edge.sense.concept == REFERS else _pointed(edge, topic)
+        if edge.sense.concept == REFERS and (
+            isinstance(edge.sense.value, dict) or edge.sense.value in _WHOLE
+        ):
+            _keep_whole(lattice, edge)
         if isinstance(found, Unclear):
             unclear.append(found)
             if edge.sense.concept != REFERS and found.candidates:
@@ -109,6 +120,18 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
         case "there" if topic.where is not None:
             said = {key: part for key, part in asdict(topic.where).items() if part is not None}
             return Edge(start, end, Sense("place", said))
+        case {"nth": int() as number} if 0 < number <= len(topic.listed):
+            return _things(start, end, topic.listed[number - 1 : number])
+        case "other" | "others" as which:
+            return _others(start, end, topic, one=which == "other")
+        case "back" if _took_away(topic):
+            return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
+        case "not_that" if _pointed_at(topic):
+            return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
+        case "closest" if topic.listed:
+            kinds = {kind_of(name) for name in topic.listed}
+            kind = {"kind": kinds.pop()} if len(kinds) == 1 else {}
+            return Edge(start, end, Sense(REPEATED, [{"do": "ask", "about": "scene", **kind}]))
         case "same_lane" | "other_lane" as which:
             lane = _lane_before(lattice, start, topic.where)
             if which == "other_lane":
@@ -118,6 +141,38 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return Unclear(start, end, lane=True)
         case _:
             return Unclear(start, end)
+
+
+def _keep_whole(lattice: Lattice, outer: Edge) -> None:
+    """Let no word of a reference mean anything by itself: in "the first one" is no "one" of something else."""
+    for at in range(outer.start, outer.end):
+        lattice.edges[at] = [
+            edge
+            for edge in lattice.edges[at]
+            if edge.end > outer.end or (edge.start, edge.end) == (outer.start, outer.end)
+        ]
+
+
+def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:
+    """Those of what was told last that were not just spoken of."""
+    there = tuple(name for name in topic.listed if name not in topic.gone)
+    left = tuple(name for name in there if name not in topic.things) or there
+    if not left or (one and len(left) > 1):
+        return Unclear(start, end, left[-MAX_CANDIDATES:])
+    return _things(start, end, left)
+
+
+def _took_away(topic: Topic) -> bool:
+    """Whether the last request took things off the road."""
+    away = any(isinstance(action, _MOVED) for action in topic.actions)
+    return away and bool(topic.steps) and not topic.undone
+
+
+def _pointed_at(topic: Topic) -> bool:
+    """Whether the last request was about one thing that it did not name."""
+    wheres = [getattr(action, "where", None) for action in topic.actions]
+    pointed = any(where is not None and (where.nearest or where.id) for where in wheres)
+    return pointed and bool(topic.steps) and not topic.undone
 
 
 def _lane_before(lattice: Lattice, start: int, where: Where | None) -> str | int | None:

@@ -72,6 +72,10 @@ class Repair:
             return None
         edges = sorted((e for e in lattice.all() if e.concept == REPAIR), key=lambda e: (e.start, -e.end))
         for edge in edges:
+            if any(
+                other.end > edge.end and other.concept not in SKIPPED for other in lattice.edges[edge.start]
+            ):
+                continue  # the first word of something else: "wait a second"
             one = cls(plain, tokens, lattice, edge, work)
             if edge.sense.value == NUMBERS and not one._begins_with_number():
                 continue
@@ -90,24 +94,23 @@ class Repair:
         """The sentences that may be meant; None where nothing was taken back after all."""
         if self._value == DROPPED:
             return self._without(read)
+        if self._value == ALWAYS and self._alike(read) is False:
+            return []
         if (found := self._in_place(read)) or (found := self._instead_of_all(read)):
             return found
         return [] if self._value != PERHAPS or self._alike(read) is not False else None
 
     def _without(self, read: Read) -> list[Choice]:
         """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""
-        before = self._written(0, self._end)
-        last = self._lattice.size
-        ends = range(last, self._again, -1) if self._tail == last else (self._tail,)
         said = ends_of_pieces(steps_of(self._lattice), self._again, self._work)
-        for end in ends:
-            if end not in said:
-                continue
+        found: list[Choice] = []
+        for end in sorted(end for end in said if end <= self._tail):
+            before = self._written(0, self._edge.start if end < self._tail else self._end)
             text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
             parsed = read(text)
-            if isinstance(parsed, Understood):
-                return [Choice(text, parsed.actions)]
-        return []
+            if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in found):
+                found.append(Choice(text, parsed.actions))
+        return found
 
     def _in_place(self, read: Read) -> list[Choice]:
         """The readings with a span of the same pattern replaced; the last request is tried first."""

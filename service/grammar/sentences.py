@@ -20,26 +20,36 @@ from service.actions import (
     Evaluate,
     FindWorst,
     Forget,
+    Goal,
     Hide,
     Load,
     Record,
+    Redo,
     Rewind,
     Save,
     ScenarioParts,
     Show,
     Step,
+    Style,
     Teach,
+    Undo,
 )
 from sim.actions import (
     Add,
     Adjust,
+    Copy,
     Drive,
+    Landmark,
+    MoveThings,
+    OneThing,
     Prefer,
     Remove,
+    Replace,
     Scenario,
     Set,
     SetCount,
     SetMode,
+    Swap,
     Where,
 )
 from sim.planner_names import BUILT_IN, canonical
@@ -50,6 +60,18 @@ _EXCLUSIVE = (
     ("cells", "distance_m"),
     ("nearest", "cell"),
     ("nearest", "lane"),
+    ("nearest", "lanes"),
+    ("nearest", "rows"),
+    ("nearest", "of"),
+    ("lanes", "lane"),
+    ("lanes", "cell"),
+    ("rows", "row"),
+    ("rows", "cell"),
+    ("each", "lane"),
+    ("each", "cell"),
+    ("each", "id"),
+    ("each", "nearest"),
+    ("of", "id"),
 )
 """Parts of a place that contradict each other when said together."""
 
@@ -102,6 +124,18 @@ class Sentences:
                 return self._remove(action)
             case SetCount():
                 return self._say("set_count", **self._counted(action.kind, action.count))
+            case MoveThings():
+                return self._move(action)
+            case Swap(first=first, second=second):
+                return self._say("swap", first=self._one(first), second=self._one(second))
+            case Replace(by=by):
+                things = self._meant(action.kind, action.count, action.where)
+                others = self._entry("things", by)
+                one = action.count == 1
+                return self._say("replace", things=things, others=f"1 {others[0]}" if one else others[1])
+            case Copy(to=to):
+                things = self._meant(action.kind, action.count, action.where)
+                return self._say("copy_to" if to else "copy", things=things, to=self._destination(to))
             case Scenario():
                 parts = self._parts(action)
                 return self._say("scenario", parts=parts) if parts else self._say("scenario_empty")
@@ -111,6 +145,10 @@ class Sentences:
                 return self._adjust(action)
             case Prefer():
                 return self._word("prefer", action.preference)
+            case Goal():
+                return self._goal(action)
+            case Style():
+                return self._word("style", action.style)
             case SetMode():
                 return self._word("mode", action.mode)
             case Drive():
@@ -143,6 +181,9 @@ class Sentences:
                 )
             case Save() | Load():
                 return self._say(action.do, name=quoted(action.name))
+            case Undo() | Redo():
+                key = action.do if action.steps is None else f"{action.do}_steps"
+                return self._say(f"{action.do}_all" if action.steps == "all" else key, count=action.steps)
             case Record():
                 return self._word("record", action.on)
             case Teach():
@@ -152,8 +193,66 @@ class Sentences:
             case _:
                 return self._say(action.do)
 
+    def _move(self, action: MoveThings) -> str:
+        things = self._meant(action.kind, action.count, action.where)
+        if action.by is None:
+            return self._say("move_to", things=things, to=self._destination(action.to))
+        key = "move_by_one" if action.by.cells == 1 else "move_by"
+        side = self._word("shift", action.by.side)
+        return self._say(key, things=things, cells=action.by.cells, side=side)
+
+    def _meant(self, kind: str, count: int | str, where: Where | None) -> str:
+        """Things that are on the road already: "all cars in lane 2", "the 2 nearest cones", "pothole-3"."""
+        many = self._entry("things", kind)[1]
+        if where is not None and where.id is not None:
+            if where != Where(id=where.id) or count != 1 or where.id.rpartition("-")[0] != kind:
+                raise Unsayable("an id is a thing of its own")
+            return where.id
+        if where is not None and where.nearest:
+            if where != Where(nearest=True) or count == "all":
+                raise Unsayable("the nearest are nearest to the vehicle")
+            return self._say(
+                "meant_nearest" if count == 1 else "meant_nearest_many", **self._counted(kind, count)
+            )
+        if count == "all":
+            return self._say("meant_all", things=many, where=self._where(where))
+        return self._say("meant", **self._counted(kind, count), where=self._where(where))
+
+    def _one(self, one: OneThing) -> str:
+        """A thing that changes places: "the nearest car", "a cone in lane 2", "pothole-3"."""
+        if one.where is None:
+            return self._say("one_of", thing=self._entry("things", one.kind)[0], where="")
+        if one.where.id is not None or one.where.nearest:
+            return self._meant(one.kind, 1, one.where)
+        return self._say("one_of", thing=self._entry("things", one.kind)[0], where=self._where(one.where))
+
+    def _destination(self, to: Where | None) -> str:
+        """Where things are to be: "lane 3"."""
+        if to is None:
+            return ""
+        if to == Where() or to.id is not None or to.nearest or to.each:
+            raise Unsayable("no place to put things")
+        return self._where(to, "goal")
+
+    def _goal(self, goal: Goal) -> str:
+        if goal.planners is not None:
+            can, cannot = (self._value("planner", planner) for planner in goal.planners)
+            return self._say("separates", can=can, cannot=cannot)
+        return self._word("goal", goal.goal if goal.degree is None else f"{goal.goal}_{goal.degree}")
+
     def _remove(self, action: Remove) -> str:
         kind, count, where = action.kind, action.count, action.where
+        if action.except_ is not None:
+            if count != "all" or where is not None:
+                raise Unsayable("an exception is one of all")
+            stay = self._staying(action.except_)
+            if kind == "everything":
+                return self._say("remove_except_everything", stay=stay)
+            return self._say("remove_except", things=self._entry("things", kind)[1], stay=stay)
+        if count == "half":
+            if kind == "everything":
+                raise Unsayable("half of everything is said of no kind")
+            return self._say("remove_half", things=self._entry("things", kind)[1], where=self._where(where))
         if kind == "everything":
             if count != "all":
                 raise Unsayable("everything is all there is")
@@ -168,33 +267,64 @@ class Sentences:
             return self._say("remove_id", id=where.id)
         return self._say("remove", **self._counted(kind, count), where=self._where(where))
 
-    def _where(self, where: Where | None) -> str:
-        """The place, each part said once; nothing for no place."""
+    def _staying(self, where: Where) -> str:
+        """What an exception leaves: "the nearest one", "those in lane 2"."""
+        if where == Where(nearest=True):
+            return self._say("stay_nearest")
+        if where.id is not None:
+            if where != Where(id=where.id):
+                raise Unsayable("an id is a thing of its own")
+            return where.id
+        if where.nearest or where.each or where == Where():
+            raise Unsayable("no place of things that stay")
+        return self._say("stay_there", where=self._where(where))
+
+    def _where(self, where: Where | None, section: str = "where") -> str:
+        """The place, each part said once; nothing for no place. `section`: the words for its parts."""
         if where is None or where == Where():
             return ""
         if any(getattr(where, a) is not None and getattr(where, b) is not None for a, b in _EXCLUSIVE):
             raise Unsayable("parts of the place contradict each other")
-        said = self._absolute(where)
-        words = self._words["where"]
+        words = {**self._words["where"], **self._words.get(section, {})}
+        said = self._absolute(where, words)
         if where.distance_m is not None:
             key = "distance_side" if where.side else "distance"
             said += words[key].format(metres=number(where.distance_m))
         elif where.cells is not None:
             key = f"cell{'s' if where.cells != 1 else ''}_{'side' if where.side else 'away'}"
             said += words.get(key, words["cells"]).format(cells=where.cells)
-        if where.side is not None:
+        if where.of is not None:
+            if where.side is None and (where.distance_m or where.cells):
+                raise Unsayable("a distance from a thing has a side")
+            key = where.side or "near"
+            said += words["seen_from"][key].format(thing=self._landmark(where.of))
+        elif where.side is not None:
             said += words[where.side]
         if where.nearest:
             said += words["nearest"]
         return said
 
-    def _absolute(self, where: Where) -> str:
-        words, said = self._words["where"], ""
+    def _landmark(self, of: Landmark) -> str:
+        """The thing a place is described from."""
+        if of.id is not None:
+            return of.id
+        if of.kind == "av":
+            raise Unsayable("the nearest autonomous vehicle is the vehicle itself")
+        return self._say("meant_nearest", count=1, things=self._entry("things", of.kind)[0])
+
+    def _absolute(self, where: Where, words: Mapping[str, Any]) -> str:
+        said = ""
         if where.lane is not None:
             key = "lane_number" if isinstance(where.lane, int) else "lane"
             said += words[key].format(lane=where.lane)
+        if where.lanes is not None:
+            said += words["lanes"].format(first=where.lanes[0], last=where.lanes[1])
+        if where.each is not None:
+            said += words["each_lane"]
         if where.row is not None:
             said += words["row"].format(row=where.row)
+        if where.rows is not None:
+            said += words["rows"].format(first=where.rows[0], last=where.rows[1])
         if where.cell is not None:
             said += words["cell"].format(column=where.cell[0], row=where.cell[1])
         if where.id is not None:
@@ -250,6 +380,11 @@ class Sentences:
                 return self._say("term", term=self._word("terms", ask.term))
             case "history":
                 return self._history(ask)
+            case "changes" if ask.count is not None or ask.tick is not None:
+                if ask.count is not None and ask.tick is not None:
+                    raise Unsayable("changes are counted, or those since a tick")
+                key = "changes_count" if ask.count is not None else "changes_tick"
+                return self._say(key, count=ask.count, tick=ask.tick)
             case about:
                 return self._say(about)
 

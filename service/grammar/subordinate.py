@@ -25,7 +25,7 @@ TEACHING = verbs_where(lambda traits: traits.changes_aliases)
 NO_CHANGE = verbs_where(lambda traits: traits.what_if is WhatIf.INVALID)
 """Actions that cannot stand in a condition."""
 
-CONDITIONAL = frozenset({"cond", "past"})
+CONDITIONAL = frozenset({"cond", "past", "at"})
 """Forms in place inside a condition."""
 
 Divide = Callable[[int, int, frozenset[str]], Divided]
@@ -148,7 +148,7 @@ def _actions(
 ) -> list[dict[str, Any]] | Fragment:
     """The actions of clauses; the whole as not fitting where there are none, or one of `never`."""
     values = [value for clause in divided.clauses for value in clause.actions]
-    asks = any(clause.filled.frame.ask for clause in divided.clauses)
+    asks = any(clause.filled.frame.ask or clause.instead for clause in divided.clauses)
     if asks or not values or any(value["do"] in never for value in values):
         return Fragment("pause", start, max(end, start + 1))
     return values

@@ -42,6 +42,14 @@ class Topic:
     """ids of all that was added by someone and is still there, the latest last: "the last pothole" """
     actions: tuple[Action, ...] = ()
     """what was last done or asked: "again" """
+    said: str = ""
+    """how that was said; empty for typed actions"""
+    steps: int = 0
+    """how many steps of undo take it back; a correction of a correction takes back both"""
+    listed: tuple[str, ...] = ()
+    """ids in the order in which they were last told or added: "the second one" """
+    gone: frozenset[str] = frozenset()
+    """those of them that are no longer on the road"""
     undone: bool = False
     """whether the latest change was an undo: then "again" is to redo it"""
     kind: str | None = None

@@ -69,6 +69,7 @@ def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
         "rules": run.config.rules,
         "rules_note": _rules_note(run.config.rules, record.language),
         "sentence": sentence,
+        "pending": None if session.pending is None else session.pending.to_json(),
         "parent": parent_json(record),
         "links": links_json(session.id),
     }

@@ -12,9 +12,10 @@ from typing import Literal
 
 from anyio import to_thread
 
-from service import actions as contract
-from service.actions import Action, Forget, Teach
+from service.actions import Action, Ask, Drop, Forget, Teach
 from service.actions.table import ModelUse, traits_of
+from service.grammar import Language as Grammar
+from service.grammar.follow_up import read_in_conversation
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
 from service.grammar.parse_types import Correction, Parse, Refused, Understood
 from service.grammar.references import parse_in_topic
@@ -23,13 +24,15 @@ from service.grammar.topic import ALONE, Topic
 from service.interpreter.aliases import Aliases
 from service.interpreter.languages import Languages
 from service.interpreter.preview import Preview, preview
+from service.interpreter.question import Asked, answered, asked_by
 from service.llm.protocol import LanguageModel
-from service.problems import Ambiguous, FieldProblem, Invalid, NotAQuestion, NotUnderstood
+from service.problems import FieldProblem, Invalid, NotAQuestion, NotUnderstood
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part
 from service.sessions.facts import AliasChange
 from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.pending import PendingChoice, PendingQuestion
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.session import Session
 from service.sessions.utterance import Outcome, Utterance
@@ -108,18 +111,40 @@ class Interpreter:
         return preview(await self._read(text, session, code), session, code)
 
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
-        parse, topic = self.languages[code].parse, self.topic(session, code)
+        language, topic = self.languages[code], self.topic(session, code)
         if len(text) <= MAX_INLINE_CHARS:
-            return parse_in_topic(parse, text, topic)
-        return await to_thread.run_sync(parse_in_topic, parse, text, topic)
+            parsed = parse_in_topic(language.parse, text, topic)
+        else:
+            parsed = await to_thread.run_sync(parse_in_topic, language.parse, text, topic)
+        if isinstance(language, Grammar):
+            parsed = read_in_conversation(language, text, topic, parsed)
+        return answered(language, code, text, parsed, None if session is None else session.pending)
 
     async def interpret(
-        self, text: str, session: Session | None = None, code: str | None = None, field: str = "text"
+        self,
+        text: str,
+        session: Session | None = None,
+        code: str | None = None,
+        field: str = "text",
+        *,
+        asks: bool = False,
     ) -> ParsedCommand:
         """What a sentence means, in a language (by default the session's).
 
-        Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`.
+        Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`. `asks`: a question becomes the
+        session's pending one, which the next sentence may answer.
         """
+        try:
+            return await self._interpret(text, session, code, field)
+        except Asked as problem:
+            if asks and session is not None:
+                session.pending = problem.question
+                problem.becomes_pending()
+            raise
+
+    async def _interpret(
+        self, text: str, session: Session | None, code: str | None, field: str
+    ) -> ParsedCommand:
         code = code or language_of(session)
         if len(text) > self._most_chars:
             words = refusals(code)
@@ -133,8 +158,7 @@ class Interpreter:
                     text, parse.actions, parse.corrections, language=code, supposes=parse.supposes
                 )
             case AmbiguousParse():
-                choices = [(choice.text, choice.actions) for choice in parse.choices]
-                raise _ambiguous(parse.question, choices, "grammar")
+                raise asked_by(parse, code, None if session is None else session.pending)
             case Refused():
                 refusal = self._refusal(parse, session, field, code)
                 if self._model is None or parse.reason != "not_understood":
@@ -158,7 +182,18 @@ class Interpreter:
         dry_run: bool = False,
         preconditions: Preconditions = NO_PRECONDITIONS,
     ) -> Outcome:
-        """Perform an utterance, all or nothing; aliases are their owner's. Raises a `ProblemError`."""
+        """Perform an utterance, all or nothing; aliases are their owner's. Raises a `ProblemError`.
+
+        What was said drops the pending question, unless it asks for that.
+        """
+        outcome = await self._execute(session, utterance, dry_run, preconditions)
+        if not dry_run and _drops_pending(utterance):
+            session.pending = None
+        return outcome
+
+    async def _execute(
+        self, session: Session, utterance: Utterance, dry_run: bool, preconditions: Preconditions
+    ) -> Outcome:
         if not any(traits_of(action).changes_aliases for action in utterance.actions):
             outcome = await session.change(utterance, dry_run=dry_run, preconditions=preconditions)
             # An answer that is kept is kept as it was made: in our own words.
@@ -244,14 +279,19 @@ class Interpreter:
         except Unsayable:
             refusal.detail += f" {words.said('not_confirmable')}"
             raise refusal from None
-        raise _ambiguous(words.said("confirm"), [(said, reading.actions)], "llm")
+        offered = (PendingChoice(said, reading.actions),)
+        raise Asked(PendingQuestion(text, words.said("confirm"), offered, "llm", code))
+
+
+def _drops_pending(utterance: Utterance) -> bool:
+    """Whether nothing is pending after an utterance; typed actions leave a question open."""
+    actions = utterance.actions
+    if any(isinstance(action, Drop) for action in actions):
+        return True
+    asks = all(isinstance(action, Ask) and action.about == "pending" for action in actions)
+    return utterance.text is not None and not asks
 
 
 def language_of(session: Session | None) -> str:
     """The language of a sentence that names none: the session's, or the default outside of any."""
     return DEFAULT_LANGUAGE if session is None else session.language
-
-
-def _ambiguous(question: str, choices: list[tuple[str, tuple[Action, ...]]], source: Source) -> Ambiguous:
-    told = [{"text": text, "actions": contract.dump(actions)} for text, actions in choices]
-    return Ambiguous(question, choices=told, source=source)

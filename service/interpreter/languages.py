@@ -61,7 +61,7 @@ class Languages:
         """Make what the first refusal needs, so that nobody waits for it. For any thread."""
         for language in self._by_code.values():
             if isinstance(language, Grammar):
-                language.suggestions.nearest("", frozenset())
+                language.suggestions.nearest("", ())
 
     @property
     def codes(self) -> tuple[str, ...]:

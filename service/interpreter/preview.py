@@ -60,6 +60,7 @@ def _try(actions: tuple[Action, ...], session: Session, language: str) -> Previe
         session.timeline, session.paused, session.undo_stack, session.playback_speed, language
     )
     long = transaction.needs_external_planner(doing) or transaction.estimate_ticks(doing) > MAX_TICKS
+    long = long or any(traits_of(action).searches for action in doing)
     if traits_of(doing[0]).changes_aliases or long:
         return Preview("does", actions)
     try:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import Any, Final
 
@@ -17,7 +18,19 @@ from pydantic_core import from_json
 from service.actions import Action, Ask, load
 from service.llm.failures import ModelFailure
 from service.llm.schema import FORBIDDEN, WORDS
-from sim.actions import Add, Drive, Remove, Set, SetMode
+from sim.actions import (
+    Add,
+    Copy,
+    Drive,
+    Landmark,
+    MoveThings,
+    Remove,
+    Replace,
+    Set,
+    SetMode,
+    Swap,
+    Where,
+)
 
 MAX_ACTIONS: Final = 8
 """Largest number of actions in one answer, nested ones included."""
@@ -84,8 +97,8 @@ def _check(action: Action, said: str) -> None:
             fits = isinstance(value, str) if words else not isinstance(value, str)
             if not fits or (words and value not in words):
                 raise ModelFailure("no_action", again=True)
-        case Add(where=where) | Remove(where=where):
-            if where is not None and where.id is not None and not _was_said(where.id, said):
+        case Add() | Remove() | MoveThings() | Swap() | Replace() | Copy():
+            if any(not _was_said(name, said) for name in _ids(action)):
                 raise ModelFailure("not_said")
         case Drive(ego=str(ego)) | SetMode(ego=str(ego)):
             if not _was_said(ego, said):
@@ -97,6 +110,15 @@ def _check(action: Action, said: str) -> None:
                 _check(inner, said)
         case _:
             pass
+
+
+def _ids(part: object) -> Iterator[str]:
+    """Every id in the places of an action."""
+    if isinstance(part, Where | Landmark) and part.id is not None:
+        yield part.id
+    if is_dataclass(part):
+        for field in fields(part):
+            yield from _ids(getattr(part, field.name))
 
 
 def _was_said(thing: str, said: str) -> bool:

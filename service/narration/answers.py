@@ -6,6 +6,7 @@ from service.narration.advice import Advices
 from service.narration.answerer import Answerer, Json
 from service.narration.confidence import Confidences
 from service.narration.glossary import Glossary
+from service.narration.goals import Styles
 from service.narration.history import History
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
@@ -14,6 +15,7 @@ from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.settings import Settings
 from service.narration.status import Help, Status
+from service.narration.talk import OpenQuestion, RecentChanges
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.sessions.facts import Advised, Answerable
@@ -31,6 +33,8 @@ class Answers:
             "why_not": whys,
             "status": Status(sayings),
             "help": Help(sayings),
+            "changes": RecentChanges(sayings),
+            "pending": OpenQuestion(sayings),
             "scene": Scenes(sayings),
             "confidence": Confidences(sayings),
             "maintenance": Maintenance(sayings),
@@ -41,6 +45,7 @@ class Answers:
             "options": settings,
             "term": Glossary(sayings),
             "history": History(sayings),
+            "styles": Styles(sayings),
         }
 
     def answer(self, asked: Answerable) -> Json:

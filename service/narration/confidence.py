@@ -97,7 +97,7 @@ class Confidences:
             gap=self._sayings.number(gap),
             cost="" if cost is None else self._sayings.number(cost),
             seconds=self._sayings.number(gap * run.config.step_seconds),
-            planner=decision.planner,
+            planner=self._sayings.planner(decision.planner, "id"),
         )
 
     def _when(self, ticks: tuple[int, int], run: SimState) -> str:

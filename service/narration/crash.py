@@ -86,7 +86,11 @@ class Crashes:
 
     def _by_whom(self, decision: Decision) -> str:
         if decision.fault is not None:
-            return self._say("fault", planner=decision.planner, fault=self._sayings.fault(decision.fault))
+            return self._say(
+                "fault",
+                planner=self._sayings.planner(decision.planner, "id"),
+                fault=self._sayings.fault(decision.fault),
+            )
         if decision.held_back and decision.asked is not None:
             return self._say("held_back", asked=self._sayings.move(decision.asked, "do"))
         return "" if decision.asked is None else self._say("by_hand")

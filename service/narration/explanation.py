@@ -56,7 +56,7 @@ class _Telling:
             return self._say(
                 "fact_fault",
                 tick=decision.tick,
-                planner=decision.planner,
+                planner=self._sayings.planner(decision.planner, "id"),
                 fault=self._sayings.fault(decision.fault),
             )
         if decision.asked is not None and not decision.held_back:
@@ -130,7 +130,7 @@ class _Telling:
         decision, chosen = self._decision, self._decision.chosen
         fact = self._say("fact", tick=decision.tick, did=self._did(decision.move))
         if decision.measure is Measure.OWN:
-            return self._say("own", fact=fact, planner=decision.planner)
+            return self._say("own", fact=fact, planner=self._sayings.planner(decision.planner, "id"))
         if chosen.cost is None:
             return self._say("weighed_no_way", fact=fact)
         costs = self._sayings.number(chosen.cost)
@@ -150,7 +150,9 @@ class _Telling:
         """Why a free move was not taken by a planner that knows what each costs in all."""
         decision, best = self._decision, self._decision.chosen.cost
         if decision.measure is Measure.OWN:
-            return self._say("not_own", tick=decision.tick, planner=decision.planner)
+            return self._say(
+                "not_own", tick=decision.tick, planner=self._sayings.planner(decision.planner, "id")
+            )
         if option.cost is None or best is None:
             return self._say("not_dead_end", tick=decision.tick, do=do)
         more = option.cost - best

@@ -9,12 +9,14 @@ from typing import Any
 
 from service.narration.answers import Answers
 from service.narration.episode_end import Ends
+from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.options import Options
 from service.narration.planner_reasons import planner_reasons
-from service.narration.replies import Replies, speed
+from service.narration.replies import Replies
 from service.narration.sayings import Sayings
 from service.narration.side_by_side import SidesBySide
+from service.narration.values import speed
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.facts import AliasChange, Answerable, Fact, SideBySideTexts
 from service.sessions.scheduler.playback_speed import PlaybackSpeed
@@ -72,7 +74,11 @@ class Narrator:
         `forecast`: what it was decided by, where that is known already.
         """
         if decision.fault is not None:
-            return self._say("fault", planner=decision.planner, fault=self._sayings.fault(decision.fault))
+            return self._say(
+                "fault",
+                planner=self._sayings.planner(decision.planner, "id"),
+                fault=self._sayings.fault(decision.fault),
+            )
         asked, first = decision.asked, decision.options[0]
         ranked = decision.measure is Measure.RANK
         if first.move is decision.move is Move.FORWARD and ranked and asked is None:
@@ -152,32 +158,39 @@ class Narrator:
         if event.type in ENDS:
             return self._ends.text(run)
         if event.type is EventType.NO_WAY:
-            return self._no_way(event)
+            return self._no_way(event, run)
         ticks = run.world.episode_tick
         reason = ""
         if event.type is EventType.HELD_BACK and event.move is not None:
             how = event.how or "free"
             reason = self._sayings.in_the_way(how, event.move, event.ids, "then", Naming(self._sayings, run))
-        return self._sayings.say(
+        said = self._sayings.say(
             "log",
             "events",
             event.type,
             episode=event.episode,
             ticks=ticks,
             seconds=self._sayings.number(ticks * run.config.step_seconds),
-            who=self._sayings.joined(event.ids),
+            who=self._pointed_at(event, run),
             where="" if event.cell is None else self._sayings.where(event.cell),
             move="" if event.move is None else self._sayings.move(event.move, "name"),
             reason=reason,
-            planner=run.config.planner,
+            planner=self._sayings.planner(run.config.planner, "id"),
             fault=self._sayings.fault(event.how or "") if event.type is EventType.PLANNER_FAILED else "",
         )
+        return capital(said)
 
-    def _no_way(self, event: Event) -> str:
+    def _pointed_at(self, event: Event, run: SimState) -> str:
+        """The things of an event, as they are where they stand."""
+        if not event.ids:
+            return ""
+        return Naming(self._sayings, run, as_seen=False).things(event.ids)
+
+    def _no_way(self, event: Event, run: SimState) -> str:
         if not event.ids:
             return self._sayings.say("log", "no_way", event.how or "plain")
         form = "one" if len(event.ids) == 1 else "many"
-        return self._sayings.say("log", "no_way", "without", form, who=self._sayings.joined(event.ids))
+        return self._sayings.say("log", "no_way", "without", form, who=self._pointed_at(event, run))
 
     def speed(self, pace: PlaybackSpeed) -> str:
         """A playback speed."""
@@ -190,7 +203,11 @@ class Narrator:
     def planner_timeout(self, planner: str, fault: str) -> str:
         """What is said when a planner did not answer in time and a person is to drive."""
         return self._sayings.say(
-            "log", "events", "planner_silent", planner=planner, fault=self._sayings.fault(fault)
+            "log",
+            "events",
+            "planner_silent",
+            planner=self._sayings.planner(planner, "id"),
+            fault=self._sayings.fault(fault),
         )
 
     def reply(self, facts: tuple[Fact, ...]) -> str:
@@ -225,13 +242,17 @@ class Narrator:
         name, straight = self._named(decision.move), decision.option(Move.FORWARD)
         if decision.chosen.reason.blocks:
             reason = self._sayings.met(decision.chosen, "now", naming)
-            return self._say("own_though", move=name, planner=decision.planner, reason=reason)
+            return self._say(
+                "own_though", move=name, planner=self._sayings.planner(decision.planner, "id"), reason=reason
+            )
         if decision.move is Move.FORWARD:
             return self._say("first_choice")
         if straight.reason.blocks:
             reason = self._sayings.met(straight, "now", naming)
-            return self._say("own_past", move=name, planner=decision.planner, reason=reason)
-        return self._say("own", move=name, planner=decision.planner)
+            return self._say(
+                "own_past", move=name, planner=self._sayings.planner(decision.planner, "id"), reason=reason
+            )
+        return self._say("own", move=name, planner=self._sayings.planner(decision.planner, "id"))
 
     def _asked(self, decision: Decision, asked: Move, naming: Naming) -> str:
         if decision.held_back:

@@ -33,7 +33,7 @@ class Next:
         if run.world.outcome is not Outcome.RUNNING:
             return self._ended(run)
         if not way.decisions:
-            return self._say("silent", planner=run.config.planner)
+            return self._say("silent", planner=self._sayings.planner(run.config.planner, "id"))
         told = self._say("let" if way.offered else "next", way=self._way(way))
         more = way.chance and way.outcome is Outcome.RUNNING
         return f"{told} {self._say('chance')}" if more else told

@@ -2,28 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from service.narration.goals import Goals
+from service.narration.placing import how_many_now, place_of
+from service.narration.rearranged import told_rearranged
 from service.narration.sayings import Sayings
+from service.narration.values import speed, value_of
 from service.sessions.bookmarks import Bookmarked, Jumped
 from service.sessions.facts import (
     Advised,
     AliasChange,
     Asked,
     Chatted,
+    Dropped,
     Fact,
     PauseSet,
+    Resolved,
     Stepped,
     Undone,
     Viewed,
-    merge_changes,
 )
-from service.sessions.scheduler.playback_speed import MAX, PlaybackSpeed, PlaybackSpeedSet
-from sim.actions import Add, Adjust, Drive, Prefer, Remove, Scenario, Set, SetCount, SetMode
+from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
+from sim.actions import (
+    Add,
+    Adjust,
+    Copy,
+    Drive,
+    MoveThings,
+    Prefer,
+    Remove,
+    Replace,
+    Scenario,
+    Set,
+    SetCount,
+    SetMode,
+    Swap,
+)
 from sim.events import EventType
 from sim.plan import traits_of
 from sim.session.edits import Applied, Change
 from sim.session.settings import AS_IT_IS, FROM_THE_NEXT_ROAD, NEEDS_A_NEW_ROAD
 from sim.state import SimState
-from sim.types import Mode
+from sim.types import KINDS, Kind, Mode
+from sim.world import Thing
 
 
 class Replies:
@@ -32,6 +54,7 @@ class Replies:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._goals = Goals(sayings, self._scenario, self.done)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
@@ -53,6 +76,8 @@ class Replies:
         match fact:
             case Applied():
                 return self._applied(fact)
+            case Resolved():
+                return self._goals.said(fact)
             case PauseSet(before=before, paused=paused):
                 key = "pause" if paused else "resume"
                 return self._say(f"{key}_already" if before is paused else key)
@@ -63,11 +88,9 @@ class Replies:
                 key = "step_one" if len(ticks) == 1 else "step_many"
                 return self._say(key, count=len(ticks), tick=fact.first_tick + len(ticks))
             case Undone():
-                key = "redo" if fact.again else "undo"
-                told = self._diff(fact.changes)
-                said = self._say(key, diff=told) if told else self._say(f"{key}_plain")
-                clock = [change.after for change in fact.changes if change.path == "paused"]
-                return f"{said} {self._say('pause' if clock[0] else 'resume')}" if clock else said
+                return self._undone(fact)
+            case Dropped(question=question):
+                return self._say("nothing_pending" if question is None else "dropped")
             case Bookmarked(name=name, tick=tick, again=again):
                 return self._say("saved_again" if again else "saved", name=name, tick=tick)
             case Jumped(name=name, tick=tick):
@@ -87,21 +110,15 @@ class Replies:
     def _applied(self, applied: Applied) -> str:
         match applied.action:
             case Add():
-                said = self._moved("add", applied)
+                said = self._moved("add", applied.added, applied.state)
             case Remove(kind=kind) if not applied.removed:
                 said = self._say("remove_none", things=self._sayings.things(kind, 2))
             case Remove():
-                said = self._moved("remove", applied)
+                said = self._moved("remove", applied.removed, applied.state)
             case SetCount(kind=kind, count=count):
-                are = self._sayings.say("replies", "are", "one" if count == 1 else "many")
-                changed = bool(applied.changes)
-                said = self._say(
-                    "set_count" if changed else "set_count_already",
-                    are=are,
-                    count=count,
-                    things=self._sayings.things(kind, count),
-                    diff=self._diff(applied.changes),
-                )
+                said = self._exactly(kind, count, applied)
+            case MoveThings() | Swap() | Replace() | Copy() as action:
+                said = told_rearranged(self._sayings, applied, action)
             case Scenario():
                 return self._scenario(applied.state)
             case SetMode(mode=mode):
@@ -127,47 +144,81 @@ class Replies:
         if change is None:
             value = getattr(applied.state.config, parameter, None) or AS_IT_IS.get(parameter, "")
             return self._say("set_already", name=name, value=self._value(parameter, value))
-        before = self._say("unset") if change.before is None else self._value(parameter, change.before)
-        said = self._say("set", name=name, before=before, after=self._value(parameter, change.after))
+        after = self._value(parameter, change.after)
+        if change.before is None:
+            said = self._say("set_first", name=name, after=after)
+        else:
+            said = self._say("set", name=name, before=self._value(parameter, change.before), after=after)
         if parameter in NEEDS_A_NEW_ROAD:
-            return f"{said} {self._scenario(applied.state)}"
+            kept = "episode" not in changed
+            return f"{said} {self._say('road_kept') if kept else self._scenario(applied.state)}"
         counted = self._diff(applied.changes)
         told = [said, self._say("on_the_road", diff=counted) if counted else ""]
         if parameter in FROM_THE_NEXT_ROAD:
             told.append(self._say("next_road" if not counted else "next_roads_too"))
         return " ".join(sentence for sentence in told if sentence)
 
-    def _value(self, parameter: str, value: object) -> object:
+    def _value(self, parameter: str, value: object) -> str:
         """A value as people know it."""
         return value_of(self._sayings, parameter, value)
 
     def _preferring(self, applied: Applied) -> str:
         config = applied.state.config
-        wishes = [self._sayings.say("replies", "preferences", wish) for wish in config.preferences]
-        said = self._say("prefer", wishes=self._sayings.joined(wishes)) if wishes else self._say("balanced")
-        if not wishes or traits_of(config.planner).weighs_costs:
+        said = self._wishes(config.preferences)
+        if not config.preferences or traits_of(config.planner).weighs_costs:
             return said
         return f"{said} {self._say('weighs_nothing', planner=self._sayings.planner(config.planner, 'id'))}"
 
-    def _moved(self, key: str, applied: Applied) -> str:
-        """Things added or removed: one by its id and place, several by their number."""
-        things = applied.added or applied.removed
-        diff = self._diff(applied.changes)
+    def _moved(self, key: str, things: Sequence[Thing], run: SimState) -> str:
+        """Things added or removed: how many, where, and how many there are now."""
+        kinds = list(dict.fromkeys(thing.kind for thing in things))
+        now = how_many_now(self._sayings, run, kinds, left=key == "remove")
+        where = place_of(self._sayings, run, things, key)
         if len(things) == 1:
-            where = self._sayings.where(things[0].cell)
-            return self._say(f"{key}_one", id=things[0].id, where=where, diff=diff)
-        kinds = {thing.kind for thing in things}
-        noun = next(iter(kinds)) if len(kinds) == 1 else "everything"
-        named = self._sayings.things(noun, len(things))
-        return self._say(f"{key}_many", count=len(things), things=named, diff=diff)
+            return self._say(f"{key}_one", a=self._sayings.say("words", "a", kinds[0]), where=where, now=now)
+        named = self._sayings.things(kinds[0] if len(kinds) == 1 else "everything", len(things))
+        return self._say(f"{key}_many", count=len(things), things=named, where=where, now=now)
 
     def _all_gone(self, group: list[Fact]) -> str:
         """Several things taken away one by one, told at once."""
-        things = [thing for fact in group if isinstance(fact, Applied) for thing in fact.removed]
-        kinds = {thing.kind for thing in things}
-        named = self._sayings.things(next(iter(kinds)) if len(kinds) == 1 else "everything", len(things))
-        diff = self._diff(merge_changes(tuple(group)))
-        return self._say("remove_many", count=len(things), things=named, diff=diff)
+        applied = [fact for fact in group if isinstance(fact, Applied)]
+        things = [thing for each in applied for thing in each.removed]
+        return self._moved("remove", things, applied[-1].state)
+
+    def _exactly(self, kind: Kind, count: int, applied: Applied) -> str:
+        """How many there are of a kind now, and how many there were."""
+        are = self._sayings.say("replies", "are", "one" if count == 1 else "many")
+        things = self._sayings.things(kind, count or 2)
+        before = [change.before for change in applied.changes if change.path == KINDS[kind].plural]
+        if not before:
+            return self._say("set_count_already", are=are, count=count, things=things)
+        were = self._sayings.say("replies", "were", "one" if before[0] == 1 else "many", before=before[0])
+        return self._say("set_count", are=are, count=count, things=things, were=were)
+
+    def _undone(self, undone: Undone) -> str:
+        """What is as it was before, or as it was made again."""
+        key = "redo" if undone.again else "undo"
+        if undone.steps > 1:
+            key += "_many"
+        told = self._diff(undone.changes, settings=True)
+        said = [self._say(key if told else f"{key}_plain", diff=told, count=undone.steps)]
+        for change in undone.changes:
+            match change.path:
+                case "paused":
+                    said.append(self._say("pause" if change.after else "resume"))
+                case "mode":
+                    said.append(self._say(f"mode_{change.after}"))
+                case "playback_speed":
+                    before, after = (speed(self._sayings, pace) for pace in (change.before, change.after))
+                    said.append(self._say("pace", before=before, after=after))
+                case "config.preferences":
+                    said.append(self._wishes(change.after))
+        return " ".join(said)
+
+    def _wishes(self, preferences: Sequence[str]) -> str:
+        """What is wished for, of all that was said."""
+        wishes = [self._sayings.say("replies", "preferences", wish) for wish in preferences]
+        return self._say("prefer", wishes=self._sayings.joined(wishes)) if wishes else self._say("balanced")
 
     def _scenario(self, run: SimState) -> str:
         road = self._sayings.say("replies", "roads", run.config.road or "none")
@@ -184,14 +235,19 @@ class Replies:
             return self._say("scenario_empty", road=road)
         return self._say("scenario", road=road, contents=self._sayings.joined(contents))
 
-    def _diff(self, changes: tuple[Change, ...]) -> str:
-        """The counts that changed."""
-        told = [
-            self._say("diff", path=self._path(change.path), before=change.before, after=change.after)
-            for change in changes
-            if type(change.before) is int and not change.path.startswith("config.")
-        ]
-        return ", ".join(told)
+    def _diff(self, changes: tuple[Change, ...], *, settings: bool = False) -> str:
+        """The counts that changed, and with `settings` those too."""
+        told = []
+        for change in changes:
+            field = change.path.removeprefix("config.")
+            if field == change.path and type(change.before) is int:
+                told.append((self._path(change.path), change.before, change.after))
+            elif settings and field in self._sayings.words("whatif", "settings") and _known(change):
+                name = self._sayings.say("whatif", "settings", field)
+                told.append((name, self._value(field, change.before), self._value(field, change.after)))
+        return ", ".join(
+            self._say("diff", path=path, before=before, after=after) for path, before, after in told
+        )
 
     def _path(self, path: str) -> str:
         """What a figure is called."""
@@ -200,23 +256,6 @@ class Replies:
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("replies", key, **parts)
-
-
-def speed(sayings: Sayings, pace: PlaybackSpeed) -> str:
-    """A playback speed: `4×`."""
-    if pace == MAX:
-        return sayings.say("replies", "speed", "max")
-    return sayings.say("replies", "speed", "times", speed=sayings.number(float(pace)))
-
-
-def value_of(sayings: Sayings, parameter: str, value: object) -> object:
-    """The value of a setting as people know it."""
-    if parameter == "planner":
-        return sayings.planner(str(value))
-    known = sayings.words("replies", "values").get(parameter, {}).get(value)
-    if known is not None:
-        return known
-    return sayings.number(value, "") if isinstance(value, float) else value
 
 
 def _grouped(facts: tuple[Fact, ...]) -> list[list[Fact]]:
@@ -231,6 +270,10 @@ def _grouped(facts: tuple[Fact, ...]) -> list[list[Fact]]:
         else:
             groups.append([fact])
     return groups
+
+
+def _known(change: Change) -> bool:
+    return change.before is not None and change.after is not None
 
 
 def _wish(fact: Fact) -> bool:

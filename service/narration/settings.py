@@ -9,8 +9,8 @@ from service.actions import Choosable, ViewName
 from service.actions.table import PLAYBACK_SPEED
 from service.narration.answerer import Json, plain
 from service.narration.inflection import capital
-from service.narration.replies import speed
 from service.narration.sayings import Sayings
+from service.narration.values import speed
 from service.sessions.facts import Asked
 from service.sessions.scheduler.playback_speed import FASTEST, SLOWEST, PlaybackSpeed
 from sim import planner_names, sensor_names

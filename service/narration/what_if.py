@@ -7,20 +7,25 @@ from service.actions.table import imagined_actions
 from service.contract.encode.forecast import what_if_json
 from service.narration.answerer import Json, not_so, plain
 from service.narration.naming import Naming
-from service.narration.replies import value_of
+from service.narration.rearranged import supposed_rearranged
 from service.narration.sayings import Sayings
+from service.narration.values import value_of
 from service.refusals import refusals
 from service.sessions.facts import Asked
 from sim.actions import (
     Add,
     Adjust,
+    Copy,
     Drive,
+    MoveThings,
     Prefer,
     Remove,
+    Replace,
     Scenario,
     Set,
     SetCount,
     SetMode,
+    Swap,
     WorldAction,
 )
 from sim.explain import QuestionError
@@ -176,7 +181,11 @@ class WhatIfs:
 
     def _parts(self, story: EpisodeRollout, run: SimState) -> dict[str, object]:
         a = "" if story.cause is None else self._sayings.say("words", "a", story.cause.kind)
-        return {"a": a, "ticks": self._ticks(story.driven), "planner": run.config.planner}
+        return {
+            "a": a,
+            "ticks": self._ticks(story.driven),
+            "planner": self._sayings.planner(run.config.planner, "id"),
+        }
 
     def _ticks(self, count: int) -> str:
         return self._say("ticks", "one" if count == 1 else "many", count=count)
@@ -201,7 +210,7 @@ class Conditions:
         """One for each action that changed anything."""
         told, before = [], found.state
         for applied in found.done:
-            touched = applied.changes or applied.added or applied.events
+            touched = applied.changes or applied.added or applied.moved or applied.events
             if applied.removed or (touched and not isinstance(applied.action, Remove)):
                 told.append(self._clause(applied, applied.action, before))
             before = applied.state
@@ -217,6 +226,8 @@ class Conditions:
                 if count == 0:
                     return self._say("none_left", things=self._sayings.things(kind, 2))
                 return self._say("exactly", count=count, things=self._sayings.things(kind, count))
+            case MoveThings() | Swap() | Replace() | Copy():
+                return supposed_rearranged(self._sayings, applied, action, before)
             case Scenario():
                 return self._road(applied.state)
             case SetMode(mode=mode):

@@ -7,14 +7,16 @@ Actions that change the world share one handler, since `sim.session.edits` appli
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from service.actions import (
     Advise,
     Ask,
     Chat,
+    Drop,
     Forget,
+    Goal,
     Hide,
     Load,
     Pause,
@@ -24,13 +26,25 @@ from service.actions import (
     Save,
     Show,
     Step,
+    Style,
     Teach,
     Undo,
 )
 from service.actions.table import sets_playback_speed, types_where
-from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable, NothingToUndo
+from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable
 from service.sessions.bookmarks import MAX_BOOKMARKS, Bookmark, Bookmarked, Jumped, unknown_bookmark
-from service.sessions.facts import Advised, Asked, Chatted, Fact, PauseSet, Stepped, Undone, Viewed
+from service.sessions.facts import (
+    Advised,
+    Asked,
+    Chatted,
+    Dropped,
+    Fact,
+    PauseSet,
+    Resolved,
+    Stepped,
+    Undone,
+    Viewed,
+)
 from service.sessions.planner_timeout import planner_timeout_problem
 from service.sessions.rewind import rewind_timeline
 from service.sessions.scheduler.playback_speed import (
@@ -38,8 +52,13 @@ from service.sessions.scheduler.playback_speed import (
     PlaybackSpeedSet,
     change_playback_speed,
 )
+from service.sessions.take_back import take_back
+from service.styles import styles
 from sim.actions import Adjust, Set, Weather, WorldAction
+from sim.goals import Budget, CancelledError, find_goal
 from sim.hazard_advice import NoAdviceError, advise
+from sim.planner_names import canonical
+from sim.session.edits import Applied
 from sim.session.errors import EditError
 from sim.session.timeline import PlannerSilentError
 from sim.types import Kind
@@ -71,14 +90,50 @@ def _change_world(transaction: Transaction, action: WorldAction, sequence: int, 
     if sets_playback_speed(action):
         assert isinstance(action, Set | Adjust)
         return _set_playback_speed(transaction, action, position)
-    try:
-        (applied,) = transaction.timeline.apply(sequence, [action])
-    except EditError as error:
-        sentence = transaction.refusals.edit(error)
-        kind = NotAvailable if error.category == "not-available" else DoesNotFit
-        where = f"actions.{position}.{error.field}"
-        raise kind(sentence, errors=[FieldProblem(where, sentence)]) from error
+    (applied,) = _apply(transaction, (action,), sequence, position)
     return applied
+
+
+def _apply(
+    transaction: Transaction, actions: Sequence[WorldAction], sequence: int, position: int
+) -> tuple[Applied, ...]:
+    try:
+        return tuple(transaction.timeline.apply(sequence, actions))
+    except EditError as error:
+        raise _refused(transaction, error, position) from error
+
+
+def _refused(transaction: Transaction, error: EditError, position: int) -> Invalid:
+    sentence = transaction.refusals.edit(error)
+    kind = NotAvailable if error.category == "not-available" else DoesNotFit
+    return kind(sentence, errors=[FieldProblem(f"actions.{position}.{error.field}", sentence)])
+
+
+@handles(Goal)
+def _reach_goal(transaction: Transaction, action: Goal, sequence: int, position: int) -> Resolved:
+    budget = Budget(cancelled=transaction.abandoned.is_set)
+    try:
+        found = find_goal(
+            transaction.timeline.state,
+            action.goal,
+            planners=tuple(canonical(planner) for planner in action.planners or ()),
+            degree=action.degree,
+            budget=budget,
+        )
+    except EditError as error:
+        raise _refused(transaction, error, position) from error
+    except CancelledError as cancelled:
+        raise Invalid(transaction.refusals.session("abandoned")) from cancelled
+    return Resolved(action, _apply(transaction, found.actions, sequence, position), found)
+
+
+@handles(Style)
+def _set_style(transaction: Transaction, action: Style, sequence: int, position: int) -> Resolved:
+    known = styles()
+    if action.style not in known:
+        sentence = transaction.refusals.session("no_such_style", choices=tuple(known))
+        raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}.style", sentence)])
+    return Resolved(action, _apply(transaction, known[action.style], sequence, position))
 
 
 def _set_playback_speed(transaction: Transaction, action: Set | Adjust, position: int) -> PlaybackSpeedSet:
@@ -94,7 +149,9 @@ def _set_playback_speed(transaction: Transaction, action: Set | Adjust, position
 
 @handles(Ask)
 def _ask(transaction: Transaction, action: Ask, _sequence: int, _position: int) -> Asked:
-    return Asked(action, transaction.timeline.copy(), playback_speed=transaction.playback_speed)
+    return Asked(
+        action, transaction.timeline.copy(), playback_speed=transaction.playback_speed, talk=transaction.talk
+    )
 
 
 @handles(Chat)
@@ -134,22 +191,15 @@ def _step(transaction: Transaction, action: Step, _sequence: int, _position: int
         raise planner_timeout_problem(silence, transaction.language) from silence
 
 
-@handles(Undo)
-def _undo(transaction: Transaction, _action: Undo, _sequence: int, position: int) -> Undone:
-    transaction.close_step()
-    step = transaction.undo_stack.undo(transaction.timeline)
-    if step is None:
-        raise _nothing_to_undo(transaction.refusals.session("nothing_to_undo"), position)
-    return transaction.replace_tail(step.inverse, again=False)
+@handles(Undo, Redo)
+def _undo(transaction: Transaction, action: Undo | Redo, _sequence: int, position: int) -> Undone:
+    return take_back(transaction, action, position)
 
 
-@handles(Redo)
-def _redo(transaction: Transaction, _action: Redo, _sequence: int, position: int) -> Undone:
-    transaction.close_step()
-    step = transaction.undo_stack.redo(transaction.timeline)
-    if step is None:
-        raise _nothing_to_undo(transaction.refusals.session("nothing_to_redo"), position)
-    return transaction.replace_tail(step, again=True)
+@handles(Drop)
+def _drop(transaction: Transaction, _action: Drop, _sequence: int, _position: int) -> Dropped:
+    pending = transaction.talk.pending
+    return Dropped(None if pending is None else pending.question)
 
 
 @handles(Rewind)
@@ -187,7 +237,3 @@ def _load(transaction: Transaction, action: Load, _sequence: int, position: int)
 def _refuse_aliases(transaction: Transaction, _action: Teach | Forget, _sequence: int, position: int) -> Fact:
     sentence = transaction.refusals.session("alone")
     raise Invalid(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])
-
-
-def _nothing_to_undo(sentence: str, position: int) -> NothingToUndo:
-    return NothingToUndo(sentence, errors=[FieldProblem(f"actions.{position}", sentence)])

@@ -6,11 +6,26 @@ refusals. What a scenario may name is decided by `sim.session.scenario`.
 
 from __future__ import annotations
 
-from service.actions import Action, Ask, Hide, Show
+from service.actions import Action, Ask, Goal, Hide, Show
 from service.actions.table import WhatIf, sets_playback_speed, traits_of
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
-from sim.actions import Add, Adjust, Drive, Remove, Reset, Scenario, Set, SetCount, SetMode
+from sim.actions import (
+    Add,
+    Adjust,
+    Copy,
+    Drive,
+    MoveThings,
+    OneThing,
+    Remove,
+    Replace,
+    Reset,
+    Scenario,
+    Set,
+    SetCount,
+    SetMode,
+    Swap,
+)
 from sim.session.scenario import find_unavailable
 from sim.session.settings import is_available
 from sim.types import Kind
@@ -30,6 +45,10 @@ def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
         return words.session(action.do)
     match action:
         case Add(kind=Kind.AV) | Remove(kind=Kind.AV) | SetCount(kind=Kind.AV):
+            return words.session("more_vehicles")
+        case MoveThings(kind=Kind.AV) | Copy(kind=Kind.AV) | Replace(kind=Kind.AV) | Replace(by=Kind.AV):
+            return words.session("more_vehicles")
+        case Swap(first=OneThing(kind=Kind.AV)) | Swap(second=OneThing(kind=Kind.AV)):
             return words.session("more_vehicles")
         case Show(view="sensors") | Hide(view="sensors"):
             return words.session("view_of_sensors")
@@ -51,7 +70,8 @@ def _refuse_imagined(action: Action, language: str) -> str | None:
     """Why an action cannot be part of a what-if question, as a sentence; None if it can."""
     match traits_of(action).what_if:
         case WhatIf.REFUSED:
-            return refusals(language).session("what_if_back")
+            code = "what_if_goal" if isinstance(action, Goal) else "what_if_back"
+            return refusals(language).session(code)
         case WhatIf.NO_EFFECT:
             return None
     return refusal_of(action, language)

@@ -12,6 +12,7 @@ from anyio import to_thread
 from service import actions as contract
 from service.actions import Action
 from service.actions.table import PLAYBACK_SPEED, traits_of
+from service.sessions.facts import performed_actions
 from service.sessions.fork import fork_point
 from service.sessions.persistence.replay import replay_one
 from service.sessions.scheduler.offload import STEPS_S, with_time_limit
@@ -54,6 +55,7 @@ async def build_fork(
         # Done only to refuse what is not possible: as everywhere, it is not stored.
         session.begin_transaction().perform(session.sequence + 1, actions)
         actions = ()
+    actions = await to_thread.run_sync(_settled, session, actions)
     said: list[tuple[Action, ...]] = (
         [] if speed == NORMAL else [(Set(parameter=PLAYBACK_SPEED, value=speed),)]
     )
@@ -73,3 +75,10 @@ async def build_fork(
     session.record = replace(record, tick=session.timeline.tick)
     session.paused = session.paused if paused is None else paused
     return session, entries
+
+
+def _settled(session: Session, actions: tuple[Action, ...]) -> tuple[Action, ...]:
+    """The actions with what each goal and style comes to in its place, as they are stored."""
+    if not any(traits_of(action).stands_for_others for action in actions):
+        return actions
+    return performed_actions(actions, session.begin_transaction().perform(session.sequence + 1, actions))

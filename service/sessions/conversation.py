@@ -14,11 +14,30 @@ from dataclasses import asdict
 from typing import Any, TypeAlias
 
 from service import actions as contract
-from service.actions import Action, Redo, Undo
+from service.actions import Action, Drop, Redo, Undo
 from service.grammar.topic import Phrases, Topic
-from service.sessions.facts import Answerable, Asked, Fact, Undone
+from service.sessions.facts import (
+    Answerable,
+    Asked,
+    Fact,
+    Undone,
+    performed_actions,
+    spread_facts,
+)
 from service.sessions.utterance import Outcome
-from sim.actions import Add, Remove, Reset, SetCount, Where
+from sim.actions import (
+    Add,
+    Copy,
+    Landmark,
+    MoveThings,
+    Rearranging,
+    Remove,
+    Replace,
+    Reset,
+    SetCount,
+    Swap,
+    Where,
+)
 from sim.session.edits import Applied
 from sim.world import World
 
@@ -36,6 +55,9 @@ class Conversation:
         self._things: tuple[str, ...] = ()
         self._added: deque[str] = deque(maxlen=MAX_REMEMBERED)
         self._actions: tuple[Action, ...] = ()
+        self._said = ""
+        self._steps = 0
+        self._listed: tuple[str, ...] = ()
         self._undone = False
         self._kind: str | None = None
         self._removed = False
@@ -51,15 +73,18 @@ class Conversation:
         twin._added = twin._added.copy()
         return twin
 
-    def record(self, outcome: Outcome, *, transient: bool = False) -> None:
-        """Record what an outcome did or answered; `transient`: it is not stored."""
+    def record(self, outcome: Outcome, *, transient: bool = False, step: bool = False) -> None:
+        """Record what an outcome did or answered.
+
+        `transient`: it is not stored; `step`: it is a new step of undo.
+        """
         if transient:
             self._durable = self._durable or self.durable
         elif self._durable is not None:
-            self._durable.record(outcome)
-        actions, facts = outcome.utterance.actions, outcome.facts
-        if not any(isinstance(action, Undo | Redo) for action in actions):
-            self._actions = actions
+            self._durable.record(outcome, step=step)
+        actions = performed_actions(outcome.utterance.actions, outcome.facts)
+        facts = tuple(spread_facts(outcome.facts))
+        self._record_request(outcome.utterance.text, actions, facts, step=step)
         changing = [fact for fact in facts if isinstance(fact, Applied | Undone)]
         if changing:
             last = changing[-1]
@@ -69,33 +94,55 @@ class Conversation:
         amounts = [fact for fact in facts if isinstance(fact, Applied) and _moves_things(fact)]
         if amounts:
             self._things = ()  # "them" are all that the utterance added, not what its last part did
+            if any(fact.added for fact in amounts):
+                self._listed = ()
         for fact in amounts:
             self._record_change(fact)
         if outcome.answer is not None:
             self._record_answer(outcome.answer, facts)
 
+    def _record_request(
+        self, text: str | None, actions: tuple[Action, ...], facts: tuple[Fact, ...], *, step: bool
+    ) -> None:
+        """Record what was asked for; of a correction, what was done in the place of what it took back."""
+        begins_with_undo = len(actions) > 1 and isinstance(actions[0], Undo)
+        own = actions[1:] if begins_with_undo else actions
+        if any(isinstance(action, Undo | Redo | Drop) for action in own):
+            if not all(isinstance(action, Drop) for action in own):
+                self._steps = 0
+            return
+        taken_back = sum(fact.steps for fact in facts[:1] if isinstance(fact, Undone))
+        self._actions, self._steps = own, 1 + taken_back if step else 0
+        self._said = "" if begins_with_undo else text or ""
+
     def _record_change(self, fact: Applied) -> None:
         action = fact.action
-        if not isinstance(action, Add | Remove | SetCount):
+        if not isinstance(action, Add | Remove | SetCount | Rearranging):
             self._forget_things()
             return
         self._set_episode(fact.state.world)
         self._things += tuple(thing.id for thing in fact.added)
+        self._things += tuple(each.thing.id for each in fact.moved)
+        self._listed += tuple(thing.id for thing in fact.added)
         for thing in fact.added:
             if thing.id in self._added:
                 self._added.remove(thing.id)  # undone, and given again
             self._added.append(thing.id)
-        self._removed = isinstance(action, Remove) or bool(fact.removed)
-        if action.kind != "everything":
-            self._kind = action.kind
-        self._where = None if isinstance(action, SetCount) else _fixed_place(action.where, fact)
+        self._removed = isinstance(action, Remove) or (bool(fact.removed) and not fact.added)
+        if not isinstance(action, Swap) and action.kind != "everything":
+            self._kind = action.by if isinstance(action, Replace) else action.kind
+        self._where = _fixed_place(_place_of(action), fact)
 
     def _record_answer(self, answer: Mapping[str, Any], facts: tuple[Fact, ...]) -> None:
         told = tuple(cause["id"] for cause in answer.get("causes", ()) if cause.get("id"))
+        seen = tuple(thing["id"] for thing in answer.get("seen", ()))
         asked = [fact for fact in facts if isinstance(fact, Asked)]
-        if told and asked:
-            self._set_episode(asked[-1].timeline.state.world)
-            self._things = told
+        if not asked or not (told or seen):
+            return
+        self._set_episode(asked[-1].timeline.state.world)
+        self._listed = told or seen
+        if told or asked[-1].ask.kind is not None:  # all that is seen is too much for "them"
+            self._things = told or seen
 
     def _set_episode(self, world: World) -> None:
         """Forget all things unless they belong to the episode of this world."""
@@ -105,6 +152,7 @@ class Conversation:
 
     def _forget_things(self) -> None:
         self._things = ()
+        self._listed = ()
         self._added.clear()
 
     def to_json(self) -> dict[str, Any]:
@@ -113,6 +161,9 @@ class Conversation:
             "things": [*self._things],
             "added": [*self._added],
             "actions": contract.dump(self._actions),
+            "said": self._said,
+            "steps": self._steps,
+            "listed": [*self._listed],
             "undone": self._undone,
             "kind": self._kind,
             "removed": self._removed,
@@ -127,10 +178,10 @@ class Conversation:
         new._things = tuple(values["things"])
         new._added.extend(values["added"])
         new._actions = contract.load(values["actions"])
+        new._said, new._steps, new._listed = values["said"], values["steps"], tuple(values["listed"])
         new._undone, new._removed, new._kind = values["undone"], values["removed"], values["kind"]
         if where is not None:
-            cell = where["cell"]
-            new._where = Where(**{**where, "cell": None if cell is None else (cell[0], cell[1])})
+            new._where = _read_where(where)
         if values["episode"] is not None:
             number, start = values["episode"]
             new._episode = number, start
@@ -143,6 +194,10 @@ class Conversation:
             things=tuple(name for name in self._things if name in there),
             added=tuple(name for name in self._added if name in there),
             actions=self._actions,
+            said=self._said,
+            steps=self._steps,
+            listed=self._listed if there else (),
+            gone=frozenset(name for name in self._listed if name not in there),
             undone=self._undone,
             kind=self._kind,
             removed=self._removed,
@@ -157,14 +212,32 @@ def _episode(world: World) -> Episode:
 
 
 def _moves_things(fact: Applied) -> bool:
-    return isinstance(fact.action, Add | Remove | SetCount | Reset)
+    return isinstance(fact.action, Add | Remove | SetCount | Rearranging | Reset)
+
+
+def _place_of(action: Add | Remove | SetCount | Rearranging) -> Where | None:
+    """Where an action put things, or took them from."""
+    match action:
+        case MoveThings(to=to) | Copy(to=to):
+            return to
+        case Add(where=where) | Remove(where=where) | Replace(where=where):
+            return where
+        case _:
+            return None
+
+
+def _read_where(values: Mapping[str, Any]) -> Where:
+    """A place from JSON values, in which pairs are lists."""
+    parts = {key: tuple(value) if isinstance(value, list) else value for key, value in values.items()}
+    of = values.get("of")
+    return Where(**{**parts, "of": None if of is None else Landmark(**of)})
 
 
 def _fixed_place(where: Where | None, fact: Applied) -> Where | None:
     """The place of an action as lane, row or cell, which stays when the vehicle moves; None without."""
-    if where is None or (where.distance_m, where.cells, where.nearest, where.id) == (None,) * 4:
+    if where is None or (where.distance_m, where.cells, where.nearest, where.id, where.of) == (None,) * 5:
         return where
-    cells = {thing.cell for thing in (*fact.added, *fact.removed)}
+    cells = {thing.cell for thing in (*fact.added, *fact.removed, *(each.thing for each in fact.moved))}
     rows = {row for _, row in cells}
     if len(cells) == 1:
         return Where(lane=where.lane, cell=cells.pop())

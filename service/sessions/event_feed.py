@@ -22,6 +22,9 @@ from sim.state import SimState, StepResult
 if TYPE_CHECKING:
     from service.sessions.session import Session
 
+CHANGED = "changed"
+"""Type of the line that says what an utterance did."""
+
 
 class EventFeed:
     """Writes a session's events to its log and publishes them. For the event loop's thread only."""
@@ -57,6 +60,11 @@ class EventFeed:
         self._narration.finish()
         event = notice.event
         return self.log.add(event.tick, event.type, notice.text, event.ids, transient=True)
+
+    def changes(self) -> tuple[LogEvent, ...]:
+        """The lines of what was done that the log still holds, the latest last."""
+        self._narration.finish()
+        return tuple(line for line in self.log.latest(self.log.capacity) if line.type == CHANGED)
 
     def log_line(self, tick: int, kind: str, text: str, *, transient: bool = True) -> LogEvent:
         """Write a line; one that is `transient` is not there after a restart."""

@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from service.actions import Ask
+from service.actions import Action, Ask, Goal, Style
 from service.sessions.bookmarks import Bookmarked, Jumped
+from service.sessions.pending import NO_TALK, Talk
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed, PlaybackSpeedSet
+from sim.goals import Finding
 from sim.hazard_advice import Advice
 from sim.session.edits import Applied, Change
 from sim.session.timeline import Timeline
 from sim.state import SimState, StepResult
+
+
+@dataclass(frozen=True, slots=True)
+class Resolved:
+    """A goal or a style was done: what it came to, and for a goal what was found."""
+
+    action: Goal | Style
+    done: tuple[Applied, ...]
+    finding: Finding | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,10 +45,12 @@ class Stepped:
 
 @dataclass(frozen=True, slots=True)
 class Undone:
-    """A change was undone, or (`again`) redone; `changes` are the differences in the state."""
+    """Changes were undone, or (`again`) redone; `changes` are the differences in the state."""
 
     again: bool
     changes: tuple[Change, ...]
+    steps: int = 1
+    """how many steps were undone or redone"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +63,8 @@ class Asked:
     """what the question takes for granted, beyond its keys: a `crash`"""
     playback_speed: PlaybackSpeed = NORMAL
     """the clock's, which no timeline has"""
+    talk: Talk = NO_TALK
+    """the conversation as it was, for questions about it"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +91,13 @@ class Chatted:
 
 
 @dataclass(frozen=True, slots=True)
+class Dropped:
+    """The pending question was dropped; `question` is None where nothing was pending."""
+
+    question: str | None
+
+
+@dataclass(frozen=True, slots=True)
 class AliasChange:
     """A phrase was taught or forgotten, with the sentence that means the same."""
 
@@ -90,6 +113,7 @@ Answerable: TypeAlias = Asked | Advised
 
 Fact: TypeAlias = (
     Applied
+    | Resolved
     | PauseSet
     | PlaybackSpeedSet
     | Stepped
@@ -98,14 +122,32 @@ Fact: TypeAlias = (
     | Jumped
     | Viewed
     | Chatted
+    | Dropped
     | Answerable
 )
+
+
+def spread_facts(facts: Sequence[Fact]) -> Iterator[Fact]:
+    """The facts, each goal and style as what it came to."""
+    for fact in facts:
+        if isinstance(fact, Resolved):
+            yield from fact.done
+        else:
+            yield fact
+
+
+def performed_actions(actions: Sequence[Action], facts: Sequence[Fact]) -> tuple[Action, ...]:
+    """The actions of an utterance, each goal and style as what it came to; one fact stands for each."""
+    performed: list[Action] = []
+    for action, fact in zip(actions, facts, strict=True):
+        performed += [each.action for each in fact.done] if isinstance(fact, Resolved) else [action]
+    return tuple(performed)
 
 
 def merge_changes(facts: tuple[Fact, ...]) -> tuple[Change, ...]:
     """The differences after all facts together, each path once, in the order of first change."""
     merged: dict[str, Change] = {}
-    for fact in facts:
+    for fact in spread_facts(facts):
         for change in _changes(fact):
             first = merged.get(change.path, change)
             merged[change.path] = Change(change.path, first.before, change.after)
@@ -125,7 +167,7 @@ def question_timelines(facts: tuple[Fact, ...]) -> list[Timeline]:
 def parts_with_events(facts: tuple[Fact, ...]) -> list[tuple[SimState, Applied | StepResult]]:
     """The parts that may have events, each with the state after it, in order."""
     parts: list[tuple[SimState, Applied | StepResult]] = []
-    for fact in facts:
+    for fact in spread_facts(facts):
         if isinstance(fact, Applied):
             parts.append((fact.state, fact))
         elif isinstance(fact, Stepped):
@@ -145,7 +187,9 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.first_tick, fact.first_tick + len(fact.ticks)),)
         case Jumped():
             return (Change("tick", fact.before, fact.tick), *fact.changes)
-        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted():
+        case Resolved():
+            return tuple(change for each in fact.done for change in each.changes)
+        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped():
             return ()
 
 

@@ -33,7 +33,12 @@ class ForkPoint:
 
     def undo_stack(self, paused: bool) -> UndoStack:
         """The undo stack of a session that starts here."""
-        return UndoStack(base_entries=len(self.timeline.entries), base_steps=self.steps, base_paused=paused)
+        return UndoStack(
+            base_entries=len(self.timeline.entries),
+            base_steps=self.steps,
+            base_paused=paused,
+            fork_sequence=self.branch.sequence + 1,
+        )
 
 
 def timeline_until(timeline: Timeline, tick: int) -> Timeline:

@@ -8,8 +8,18 @@ from typing import Any
 
 from service import actions as contract
 from service.actions import QUESTIONS
-from service.sessions.facts import Answerable, Asked, Fact, merge_changes, question_timelines
+from service.sessions.facts import (
+    Answerable,
+    Asked,
+    Fact,
+    Resolved,
+    merge_changes,
+    performed_actions,
+    question_timelines,
+    spread_facts,
+)
 from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.take_back import settled
 from service.sessions.transaction import Transaction
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.store import EntryRecord
@@ -35,7 +45,9 @@ def make_outcome(
             replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
         )
     answers, said = _narrate(own, facts)
-    done = said if own is narrator or not _changing(facts) else _narrate(narrator, facts)[1]
+    as_replayed = tuple(spread_facts(facts))
+    alike = own is narrator and not any(isinstance(fact, Resolved) for fact in facts)
+    done = said if alike or not _changing(facts) else _narrate(narrator, as_replayed)[1]
     noticed = "" if notice is None else notice.text
     if notice is not None and own is not narrator:
         noticed = own.event(notice.event, notice.run)
@@ -69,7 +81,9 @@ def make_entry(outcome: Outcome, tick: int, transaction: Transaction) -> EntryRe
         sequence=outcome.sequence,
         tick=tick,
         text=outcome.utterance.text,
-        actions=contract.dump(outcome.utterance.actions),
+        actions=contract.dump(
+            performed_actions(settled(outcome.utterance.actions, outcome.facts), outcome.facts)
+        ),
         digest=transaction.timeline.state.world.digest(),
         names={
             moment.name: moment.tick

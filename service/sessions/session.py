@@ -12,6 +12,7 @@ from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import replace
 from functools import partial
+from threading import Event
 from typing import Any
 
 import structlog
@@ -25,10 +26,17 @@ from service.server_timing import part as timed
 from service.sessions.bookmarks import add_other_session
 from service.sessions.conversation import Conversation
 from service.sessions.dry_run import is_possible
-from service.sessions.event_feed import EventFeed
-from service.sessions.facts import Fact, merge_views, parts_with_events, question_timelines
+from service.sessions.event_feed import CHANGED, EventFeed
+from service.sessions.facts import (
+    Fact,
+    merge_views,
+    parts_with_events,
+    performed_actions,
+    question_timelines,
+)
 from service.sessions.fork import ForkPoint, is_partly_of_world
 from service.sessions.outcome import is_slow_to_answer, make_entry, make_outcome
+from service.sessions.pending import PendingQuestion, Talk
 from service.sessions.persistence.log_position import LogPosition
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.reachability import ReachabilityMonitor
@@ -54,7 +62,7 @@ from service.sessions.undo_stack import UndoStack
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.store import SessionRecord, StoreError
 from sim.actions import SetMode
-from sim.events import Event
+from sim.events import Event as RoadEvent
 from sim.explain.summary import long_to_tell
 from sim.plan import Decision
 from sim.session.timeline import PlannerSilentError, Timeline
@@ -83,6 +91,8 @@ class Session:
         self.partial_changes: set[int] = set()
         """changes of which the log of the road has only some actions"""
         self.conversation = Conversation()
+        self.pending: PendingQuestion | None = None
+        """the question that the service asked last, while it waits for an answer"""
         self.log_position = LogPosition(record)
         self.after_change: Callable[[Session], None] | None = None
         self.feed = EventFeed(self, services.settings.log_events)
@@ -239,7 +249,8 @@ class Session:
     def begin_transaction(self, language: str | None = None) -> Transaction:
         """A copy to try actions on; `language`: the one in which they are refused (the session's)."""
         language = language or self.language
-        return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language)
+        talk = Talk(self.pending, self.feed.changes)
+        return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language, talk)
 
     @asynccontextmanager
     async def locked(self, preconditions: Preconditions) -> AsyncIterator[None]:
@@ -262,16 +273,22 @@ class Session:
         if isinstance(utterance, Utterance):
             language = utterance.language or self.language
             check_step_ticks(utterance.actions, self.services.settings.max_step_ticks, language)
-        task = asyncio.ensure_future(self._change(utterance, dry_run, preconditions))
+        abandoned = Event()
+        task = asyncio.ensure_future(self._change(utterance, dry_run, preconditions, abandoned))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
-        return await asyncio.shield(task)
+        try:
+            return await asyncio.shield(task)
+        except asyncio.CancelledError:
+            abandoned.set()  # a search ends with that; anything else is finished all the same
+            raise
 
     async def _change(
         self,
         utterance: Utterance | Callable[[Timeline], Utterance],
         dry_run: bool,
         preconditions: Preconditions = NO_PRECONDITIONS,
+        abandoned: Event | None = None,
     ) -> Outcome:
         async with self._lock:
             if self.closed:
@@ -282,6 +299,7 @@ class Session:
             self._changing = True
             try:
                 transaction = self.begin_transaction(utterance.language)
+                transaction.abandoned = abandoned or transaction.abandoned
                 with timed("apply"):
                     facts = await self._perform(transaction, utterance)
                 seen = await self.reachability.after_change(transaction.timeline.state, facts)
@@ -314,7 +332,8 @@ class Session:
             if transaction.needs_external_planner(actions):
                 foreign = uses_external_planner(transaction.timeline) or names_external_planner(actions)
                 return await run_in_thread(foreign, STEPS_S, partial(transaction.perform, sequence, actions))
-            if transaction.estimate_ticks(actions) > THREAD_TICKS:
+            searches = any(traits_of(action).searches for action in actions)
+            if searches or transaction.estimate_ticks(actions) > THREAD_TICKS:
                 return await to_thread.run_sync(transaction.perform, sequence, actions)
             return transaction.perform(sequence, actions)
         except UnknownName as problem:
@@ -327,7 +346,7 @@ class Session:
         utterance: Utterance,
         facts: tuple[Fact, ...],
         sequence: int,
-        event: Event | None = None,
+        event: RoadEvent | None = None,
         transaction: Transaction | None = None,
     ) -> Outcome:
         """The outcome in words, made in a thread where slow. `event`: about the transaction's road."""
@@ -362,10 +381,11 @@ class Session:
         before, began = self.run, self.timeline.tick
         if transaction.playback_speed != self.playback_speed:
             self.services.clock.remove(self)  # the turn it waits for is at the old speed
-        self.adopt(transaction, outcome.sequence, outcome.utterance.actions)
+        step = transaction.undo_stack.is_step_after(self.undo_stack)
+        self.adopt(transaction, outcome.sequence, performed_actions(outcome.utterance.actions, outcome.facts))
         self.set_paused(transaction.paused)
-        self.conversation.record(outcome)
-        lines = [self.feed.log_line(began, "changed", outcome.done, transient=False)]
+        self.conversation.record(outcome, step=step)
+        lines = [self.feed.log_line(began, CHANGED, outcome.done, transient=False)]
         playing = outcome.only_steps and len(outcome.ticks) <= MAX_STREAMED_TICKS
         for run, part in parts_with_events(outcome.facts):
             noted = self.feed.log_events(run, part)

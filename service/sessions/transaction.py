@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain, islice
+from threading import Event
 
 from service.actions import Action, Redo, Rewind, Undo
 from service.actions import Step as StepTicks
@@ -19,14 +20,14 @@ from service.resources import DEFAULT_LANGUAGE
 from service.sessions import availability
 from service.sessions.action_handlers import HANDLERS
 from service.sessions.bookmarks import Jumped
-from service.sessions.facts import Fact, Undone
-from service.sessions.planner_timeout import planner_timeout_problem
+from service.sessions.facts import Fact
+from service.sessions.pending import NO_TALK, Talk
 from service.sessions.rewind import TimeJump, tick_meant
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed
 from service.sessions.undo_stack import UndoStack, UndoStep
 from sim.planner_names import installed
-from sim.session.edits import Change, differences
-from sim.session.timeline import PlannerSilentError, Timeline
+from sim.session.edits import differences
+from sim.session.timeline import Timeline
 from sim.state import SimState
 
 
@@ -40,20 +41,27 @@ class Transaction:
         history: UndoStack,
         speed: PlaybackSpeed = NORMAL,
         language: str = DEFAULT_LANGUAGE,
+        talk: Talk = NO_TALK,
+        *,
+        stored: bool = False,
     ) -> None:
-        """`language`: the one in which actions are refused."""
+        """`language`: the one in which actions are refused; `stored`: they are read from a log."""
+        self.talk = talk
+        self.stored = stored
         self.language = language
         self.refusals = refusals(language)
         self.timeline = timeline.copy()
         self.paused = paused
         self.playback_speed = speed
         self.undo_stack = history.copy()
+        self.abandoned = Event()
+        """set where nobody waits for the outcome any more: a search ends then"""
         self._jumped = False
-        self._savepoint = _Savepoint(timeline, paused)
+        self._savepoint = _Savepoint(timeline, paused, speed)
 
     def perform(self, sequence: int, actions: Sequence[Action]) -> tuple[Fact, ...]:
         """Do the actions of one utterance. Raises a `ProblemError` naming the first that cannot be."""
-        began = _Savepoint(self.timeline.copy(), self.paused)
+        began = _Savepoint(self.timeline.copy(), self.paused, self.playback_speed)
         earlier, self._savepoint = self.undo_stack.copy(), began.copy()
         self._jumped = False
         facts = []
@@ -61,7 +69,10 @@ class Transaction:
             facts.append(self._do(sequence, position, action))
             began.kept = min(began.kept, self._savepoint.kept)
             began.jumped = began.jumped or self._jumped
-        if any(traits_of(action).undo_step and not sets_playback_speed(action) for action in actions):
+        takes_over_speed = sequence == self.undo_stack.fork_sequence and all(
+            map(sets_playback_speed, actions)
+        )
+        if any(traits_of(action).undo_step for action in actions) and not takes_over_speed:
             # Whatever it undid on the way, the utterance is one step.
             earlier.bookmarks = self.undo_stack.bookmarks
             self.undo_stack = earlier
@@ -73,13 +84,13 @@ class Transaction:
         if not any(traits_of(action).runs_ticks for action in actions):
             return 0
         timeline = self.timeline
-        undos, redos = (sum(isinstance(action, kind) for action in actions) for kind in (Undo, Redo))
+        undos, redos = (_steps_of(actions, kind) for kind in (Undo, Redo))
         back = list(islice(self.undo_stack.iter_undoable(timeline.entries), undos))
         # Whether what is redone was undone before or here, it comes last first.
         forth = list(islice(chain(reversed(back), reversed(self.undo_stack.undone)), redos))
         ticks = step_ticks(actions)
         for step in (*back, *forth):
-            if step.jump is None and step.since < timeline.tick:
+            if step.jump is None and not step.only_speed and step.since < timeline.tick:
                 ticks += timeline.work_since(step.since)
         for action in actions:
             if isinstance(action, Rewind):
@@ -117,53 +128,50 @@ class Transaction:
 
     def _add_step(self, since: _Savepoint) -> None:
         log = self.timeline.entries
+        speed = None if since.speed == self.playback_speed else (since.speed, self.playback_speed)
         jump = TimeJump(since.timeline, self.timeline.copy()) if since.jumped else None
         was = since.timeline.entries
         step = UndoStep(
-            tuple(was.after(since.kept)), tuple(log.after(since.kept)), since.paused, self.paused, jump
+            tuple(was.after(since.kept)), tuple(log.after(since.kept)), since.paused, self.paused, jump, speed
         )
         if not step.empty:
             self.undo_stack.add(step)
 
-    def replace_tail(self, step: UndoStep, *, again: bool) -> Undone:
-        """Replace the tail of the log by what a step left, and replay. Raises `NotAvailable`."""
-        before = self.timeline.state
-        kept = len(self.timeline.entries) - len(step.before)
-        if step.jump is None:
-            try:
-                self.timeline.rewrite(self.timeline.entries.first(kept).plus(step.after), step.since)
-            except PlannerSilentError as silence:
-                raise planner_timeout_problem(silence, self.language) from silence
-        else:
-            self.timeline = step.jump.after.copy()
-            self._jumped = True
-        paused = self.paused
-        if paused == step.paused_before:
-            self.paused = step.paused_after
-        self._savepoint = _Savepoint(self.timeline.copy(), self.paused, kept)
-        changes = differences(before, self.timeline.state)
-        if before.world.tick != self.timeline.tick:
-            changes = (Change("tick", before.world.tick, self.timeline.tick), *changes)
-        if paused != self.paused:
-            changes = (*changes, Change("paused", paused, self.paused))
-        return Undone(again, changes)
+    def move_time(self, timeline: Timeline) -> None:
+        """Take another timeline in the place of this one."""
+        self.timeline = timeline.copy()
+        self._jumped = True
+
+    def begin_step(self, kept: int) -> None:
+        """Begin another step here; `kept`: how many entries of the log are as they were."""
+        self._savepoint = _Savepoint(self.timeline.copy(), self.paused, self.playback_speed, kept)
 
 
 class _Savepoint:
-    """A timeline as it was, how many of its first entries are untouched since, and whether time moved.
+    """What a step begins with: a timeline, how many of its first entries are untouched since, and the clock.
 
     Nothing else may change the timeline.
     """
 
-    def __init__(self, timeline: Timeline, paused: bool, kept: int | None = None) -> None:
+    def __init__(
+        self, timeline: Timeline, paused: bool, speed: PlaybackSpeed, kept: int | None = None
+    ) -> None:
         self.timeline = timeline
         self.paused = paused
+        self.speed = speed
         self.kept = len(timeline.entries) if kept is None else kept
         self.jumped = False
 
     def copy(self) -> _Savepoint:
         """Another for the same moment."""
-        return _Savepoint(self.timeline, self.paused, self.kept)
+        return _Savepoint(self.timeline, self.paused, self.speed, self.kept)
+
+
+def _steps_of(actions: Sequence[Action], kind: type[Undo | Redo]) -> int | None:
+    """How many steps some actions undo or redo; None for all there are."""
+    steps = [action.steps for action in actions if isinstance(action, kind)]
+    numbers = [1 if each is None else each for each in steps if each != "all"]
+    return sum(numbers) if len(numbers) == len(steps) else None
 
 
 def step_ticks(actions: Sequence[Action]) -> int:

@@ -39,7 +39,7 @@ def load() -> Loaded:
         return isinstance(action, Show | Hide) or refusal_of(action) is None  # type: ignore[arg-type]
 
     grammar = Language.load(code, offered=offered)
-    grammar.suggestions.nearest("", frozenset())  # ready before anyone is refused
+    grammar.suggestions.nearest("", ())  # ready before anyone is refused
     languages = Languages({code: grammar})
     guide = languages.guide(code)
     if guide is not None:

@@ -135,7 +135,7 @@ class Game:
 
     async def _said(self, text: str) -> Exchange:
         try:
-            heard = await self._listener.interpret(text, self.session)
+            heard = await self._listener.interpret(text, self.session, asks=True)
             views = [action for action in heard.actions if isinstance(action, Show | Hide)]
             missing = next(filter(None, map(lacking, views)), None)
             if missing is not None:

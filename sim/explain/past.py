@@ -64,9 +64,7 @@ def latest_crash(timeline: Timeline) -> int | None:
     crashes = _crashes(timeline.state)
     if not crashes:
         return None
-    return bisect_left(
-        range(timeline.tick), crashes, key=lambda tick: _crashes(timeline.at(tick))
-    )
+    return bisect_left(range(timeline.tick), crashes, key=lambda tick: _crashes(timeline.at(tick)))
 
 
 def _crashes(state: SimState) -> int:

@@ -10,7 +10,7 @@ from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-from sim.actions import Add, Drive, Remove, SetCount, WorldAction
+from sim.actions import WorldAction
 from sim.decide import announced_before, decide_on, sense
 from sim.explain.episode_rollout import EpisodeRollout, decided, rollout, summarize
 from sim.explain.facts import check_ego
@@ -19,7 +19,7 @@ from sim.oracle.lower_bounds import PATIENCE
 from sim.oracle.regret import Regret, regret
 from sim.plan import Decision
 from sim.search.reactive import ImpatientError
-from sim.session.edits import Applied, apply
+from sim.session.edits import ON_THE_NEXT_ROAD, Applied, apply
 from sim.session.timeline import Timeline
 from sim.state import SimState, StepResult
 from sim.types import Move, Outcome
@@ -61,7 +61,10 @@ class WhatIf:
     @property
     def no_effect(self) -> bool:
         """Whether the change changes nothing at all."""
-        return all(not (each.changes or each.added or each.removed or each.events) for each in self.done)
+        return all(
+            not (each.changes or each.added or each.removed or each.moved or each.events)
+            for each in self.done
+        )
 
 
 def what_if(
@@ -106,7 +109,7 @@ def what_if(
 
 def _new_road(done: Sequence[Applied]) -> bool:
     """Whether the change itself begins a road, rather than touching the one there is or is next."""
-    return any(each.events and not isinstance(each.action, Add | Remove | SetCount | Drive) for each in done)
+    return any(each.events and not isinstance(each.action, ON_THE_NEXT_ROAD) for each in done)
 
 
 def _first_difference(

@@ -15,9 +15,13 @@ from sim.codes import plain_text
 
 Value = TypeVar("Value")
 
-RULES: Final = 2
+RULES: Final = 3
 """1: cells alone collide, nobody brakes, STUCK comes at the limit of ticks. 2: bodies collide by what they
-sweep within a tick, movers brake for a standing vehicle, and a situation that repeats is STUCK."""
+sweep within a tick, movers brake for a standing vehicle, and a situation that repeats is STUCK. 3: a road
+that is given more or fewer lanes or rows keeps what is on it."""
+
+ROADS_KEEP_THEIR_THINGS: Final = 3
+"""The version from which so many lanes or rows more or fewer leave what is on the road where it is."""
 
 FIRST: Final = 1
 """The version of what names none."""

@@ -50,9 +50,11 @@ class Weights:
         )
 
 
+_LATEST = Weights(tick=60, sideways=12, diagonal=9, stay=4, fixed=2, mover=24, buffer=0)
 BALANCED: Final[dict[int, Weights]] = {
     1: Weights(tick=60, sideways=4, diagonal=3, stay=2, fixed=1, mover=2, buffer=0),
-    2: Weights(tick=60, sideways=12, diagonal=9, stay=4, fixed=2, mover=24, buffer=0),
+    2: _LATEST,
+    3: _LATEST,
 }
 """Without preferences, by version of the rules; `buffer` is added to the configuration's `safety_buffer`."""
 

@@ -1,19 +1,20 @@
 """Where a `Where` is: the cells it names on a given road, as seen from the ego, best first.
 
 Lanes and rows are absolute; sides are seen from the ego. "Ahead" without a lane is the
-vehicle's own lane for placing, and every lane for finding, the nearest thing first.
+vehicle's own lane for placing, and every lane for finding, the nearest thing first. Another
+thing (`Where.of`) may take the place of the ego.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from sim.actions import Where
+from sim.actions import Landmark, Where
 from sim.session.errors import EditError
-from sim.types import Cell
+from sim.types import Cell, Kind
 from sim.world import World
-from sim.world.grid import Board, Road, bits
+from sim.world.grid import Board, Road, bits, board_of, union
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +23,12 @@ class Place:
 
     cells: Board
     ordered: bool
+    origin: int | None = field(default=None, compare=False)
+    """the cell index that distances are told from; None: that of the first ego"""
+
+    def nearest_first(self, cells: Board, world: World) -> list[int]:
+        """These cells by their distance from where the place is seen."""
+        return nearest_to(world.av if self.origin is None else self.origin, bits(cells), world.road)
 
 
 def nearest_first(cells: Iterable[int], world: World) -> list[int]:
@@ -75,28 +82,61 @@ def place_for_adding(where: Where | None, count: int, world: World, cell_m: floa
     cells = _absolute(where, road)
     away = cells_away(where, cell_m)
     side = _side(where, away)
+    origin = _origin(where.of, world)
     if side is None:
-        exact = where.cell is not None or where.row is not None
-        return Place(cells if exact else cells & road.between, ordered=bool(where.nearest))
-    if where.lane is None and where.cell is None and where.row is None:
-        cells &= _own_line(world, side, away, spread=count > 1)
+        exact = where.cell is not None or where.row is not None or where.rows is not None
+        ordered = bool(where.nearest) or where.of is not None
+        return Place(cells if exact else cells & road.between, ordered, origin)
+    if side == "beside":
+        cells &= _beside(road, origin, away or 1)
+    elif _names_no_cells(where):
+        cells &= _own_line(road, origin, side, away, spread=count > 1)
     else:
-        cells &= _band(world, side, away, open_ended=count > 1)
-    return Place(cells, ordered=True)
+        cells &= _band(road, origin, side, away, open_ended=count > 1)
+    return Place(cells, True, origin)
 
 
 def place_for_finding(where: Where | None, world: World, cell_m: float) -> Place:
     """The cells in which things that are meant may be. Raises `EditError`."""
     if where is None:
         return Place(world.road.all, ordered=True)
-    cells = _absolute(where, world.road)
+    road, cells = world.road, _absolute(where, world.road)
     away = cells_away(where, cell_m)
     side = _side(where, away)
-    if side is not None and away is not None and where.lane is None:
-        cells &= _own_line(world, side, away, spread=False)
+    origin = _origin(where.of, world)
+    if side == "beside":
+        cells &= _beside(road, origin, away or 1)
+    elif side is not None and away is not None and where.lane is None and where.lanes is None:
+        cells &= _own_line(road, origin, side, away, spread=False)
     elif side is not None:
-        cells &= _band(world, side, away, open_ended=False)
-    return Place(cells, ordered=True)
+        cells &= _band(road, origin, side, away, open_ended=False)
+    return Place(cells, True, origin)
+
+
+def lanes_named(where: Where, road: Road) -> list[int]:
+    """The columns that a place names, or all of them, from left to right. Raises `EditError`."""
+    cells = _absolute(where, road)
+    return [column for column in range(road.columns) if road.column(column) & cells]
+
+
+def _names_no_cells(where: Where) -> bool:
+    """Whether neither lanes, rows nor a cell are named."""
+    return (where.lane, where.lanes, where.row, where.rows, where.cell) == (None,) * 5
+
+
+def _origin(of: Landmark | None, world: World) -> int:
+    """The cell index that sides are seen from. Raises `EditError`."""
+    if of is None or of.kind == Kind.AV:
+        return world.av
+    if of.id is not None:
+        found = world.index_of(of.id)
+        if found is None:
+            raise EditError("no_such_thing", "where", id=of.id)
+        return found[0]
+    near = nearest_first(bits(world.board(Kind(str(of.kind)))), world)
+    if not near:
+        raise EditError("none_there", "where", kind=of.kind, place="road")
+    return near[0]
 
 
 def _side(where: Where, away: int | None) -> str | None:
@@ -123,36 +163,39 @@ def _absolute(where: Where, road: Road) -> Board:
         if not 0 <= where.row < road.rows:
             raise EditError("no_such_row", "where", row=where.row, last_row=road.rows - 1)
         cells &= road.row(where.row)
+    if where.rows is not None:
+        first, last = sorted(where.rows)
+        if last >= road.rows:
+            raise EditError("no_such_row", "where", row=last, last_row=road.rows - 1)
+        cells &= union(road.row(row) for row in range(first, last + 1))
     if where.lane is not None:
-        columns = 0
-        for column in lane_columns(road, where.lane):
-            columns |= road.column(column)
-        cells &= columns
+        cells &= union(road.column(column) for column in lane_columns(road, where.lane))
+    if where.lanes is not None:
+        first, last = (lane_columns(road, lane)[0] for lane in sorted(where.lanes))
+        cells &= union(road.column(column) for column in range(first, last + 1))
     return cells
 
 
 _STEPS: dict[str, Cell] = {"ahead": (0, -1), "behind": (0, 1), "left": (-1, 0), "right": (1, 0)}
 
 
-def _own_line(world: World, side: str, away: int | None, *, spread: bool) -> Board:
-    """The cells straight to one side of the ego; at a distance the one, or several if `spread`."""
-    road = world.road
-    start = road.cell(world.av)
+def _own_line(road: Road, origin: int, side: str, away: int | None, *, spread: bool) -> Board:
+    """The cells straight to one side of a cell; at a distance the one, or several if `spread`."""
+    start = road.cell(origin)
     if away is None:
         return _ray(road, start, _STEPS[side], 1)
-    cell = _cell_away(road, start, side, away)
+    cell = cell_away(road, start, side, away)
     if not spread:
         return 1 << road.index(cell)
     return road.row(cell[1]) if side in ("ahead", "behind") else _ray(road, start, _STEPS[side], away)
 
 
-def _band(world: World, side: str, away: int | None, *, open_ended: bool) -> Board:
+def _band(road: Road, origin: int, side: str, away: int | None, *, open_ended: bool) -> Board:
     """All rows ahead or behind, or all columns to the left or right; those at a distance if one was said."""
-    road = world.road
-    start = road.cell(world.av)
+    start = road.cell(origin)
     first = 1 if away is None else away
     if away is not None:
-        _cell_away(road, start, side, away)
+        cell_away(road, start, side, away)
     along = _ray(road, start, _STEPS[side], first)
     lines = 0
     for index in bits(along):
@@ -162,7 +205,14 @@ def _band(world: World, side: str, away: int | None, *, open_ended: bool) -> Boa
     return lines
 
 
-def _cell_away(road: Road, start: Cell, side: str, away: int) -> Cell:
+def _beside(road: Road, origin: int, away: int) -> Board:
+    """The cells so far to the left and right of a cell."""
+    column, row = road.cell(origin)
+    both = ((column - away, row), (column + away, row))
+    return board_of(road.index(cell) for cell in both if road.holds(cell))
+
+
+def cell_away(road: Road, start: Cell, side: str, away: int) -> Cell:
     """The cell that many cells to one side. Raises `EditError` where the road ends before it."""
     columns, rows = _STEPS[side]
     cell = (start[0] + columns * away, start[1] + rows * away)

@@ -83,6 +83,7 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         "change": [{"do": "pause"}],
         "kind": "pothole",
         "metric": "steps",
+        "count": 2,
     }
     traits = QUESTIONS[about]
     (asked,) = load([{"do": "ask", "about": about, **{key: values[key] for key in traits.may}}])

@@ -40,7 +40,7 @@ def run(name: str, *arguments: str) -> str:
 
 def test_the_first_steps(service: ServiceProcess) -> None:
     lines = run("first_steps.py", service.url).splitlines()
-    assert lines[0] == "Added 5 potholes: potholes 4 → 9."
+    assert lines[0] == "Added 5 potholes; there are 9 potholes now."
     assert 'I did not understand "order pizza". Nothing was changed.' in lines
     assert any(line.startswith("Choices: ") for line in lines)
     assert lines[-1].startswith("Tick 3, 7 potholes, 30 cars")

@@ -63,7 +63,7 @@ def test_a_saying_that_is_refused_is_found_and_no_suggestion(copy: Path) -> None
     append(copy / "en" / "intents/show.yaml", impossible)
     append(copy / "en" / "lexicon/values.yaml", "odd_word: paint\n")
     language = Language.load(folder=copy, offered=lambda _: True)
-    assert language.suggestions.nearest("paint the log", language.concepts("paint the log"))
+    assert language.suggestions.nearest("paint the log", language.meanings("paint the log"))
     refused = language.parse("paint the log")
     assert isinstance(refused, Refused)
     assert "paint the log" not in refused.suggestions

@@ -76,7 +76,7 @@ async def test_in_a_session_it_is_answered_and_changes_nothing(service: Service)
 async def test_advice_between_changes_is_replayed_with_them(service: Service) -> None:
     path = await service.session(paused=True)
     done = await service.act(path, {"do": "add", "kind": "barrier", "count": 1}, {"do": "advise", **POTHOLE})
-    assert done.json()["reply"].startswith("Added barrier-1")
+    assert done.json()["reply"].startswith("Added a barrier in lane ")
     assert "hold the wheel" in done.json()["reply"]
     recording = (await service.client.get(f"{path}/recording")).json()
     again = await service.client.post("/api/v1/sessions", json={"recording": recording})

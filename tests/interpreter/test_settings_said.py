@@ -31,10 +31,10 @@ async def talking(settings: Settings) -> AsyncIterator[Service]:
     [
         ("use A*", "The planner: Rules → A*."),
         ("switch to dijkstra", "The planner: Rules → Dijkstra."),
-        ("heavy traffic", "Traffic: not set → heavy."),
+        ("heavy traffic", "Traffic is heavy now. On this road now: cars"),
         ("set the spawn probability to 0.4", "It shows from the next road on."),
-        ("raise the safety buffer by one", "The safety buffer: 1 → 2."),
-        ("steer clear of potholes", "From now on I keep away from potholes. But the planner rules weighs"),
+        ("raise the safety buffer by one", "The safety buffer: 1 cell of distance → 2 cells of distance."),
+        ("steer clear of potholes", "From now on I keep away from potholes. But the planner “Rules” weighs"),
         ("set rows to 40", "The number of rows: 30 → 40. A new road"),
     ],
 )

@@ -86,14 +86,14 @@ OPEN = run_on(road("........", "...o....", "......>.", ".o......", "...A...."))
 @pytest.mark.parametrize(
     ("action", "words"),
     [
-        (Add(kind="pothole", count=5), "Added 5 potholes: potholes 2 → 7."),
+        (Add(kind="pothole", count=5), "Added 5 potholes; there are 7 potholes now."),
         (
             Add(kind="barrier", count=1, where=Where(cell=(0, 2))),
-            "Added barrier-1 at lane 1, row 2: barriers 0 → 1.",
+            "Added a barrier in lane 1, 10 m ahead; there is 1 barrier now.",
         ),
-        (Remove(kind="pothole", count="all"), "Removed 2 potholes: potholes 2 → 0."),
+        (Remove(kind="pothole", count="all"), "Removed 2 potholes; no potholes are left."),
         (Remove(kind="barrier", count="all"), "There were no barriers to remove."),
-        (SetCount(kind="pothole", count=1), "There is exactly 1 pothole now: potholes 2 → 1."),
+        (SetCount(kind="pothole", count=1), "There is exactly 1 pothole now; there were 2."),
         (SetCount(kind="vehicle", count=1), "There is 1 car already."),
         (Scenario(road="highway", potholes=2, vehicles=0), "A new highway: 2 potholes."),
         (Scenario(potholes=0, vehicles=0), "A new road with nothing on it."),
@@ -126,4 +126,4 @@ def test_things_taken_away_one_after_another_are_told_at_once() -> None:
     timeline = Timeline(Config(seed=4, barriers=3))
     ids = [name for name in timeline.state.world.hazards.values() if name.startswith("barrier-")]
     removals = [Remove(kind="barrier", count=1, where=Where(id=name)) for name in ids]
-    assert NARRATOR.reply(tuple(timeline.apply(1, removals))) == "Removed 3 barriers: barriers 3 → 0."
+    assert NARRATOR.reply(tuple(timeline.apply(1, removals))) == "Removed 3 barriers; no barriers are left."

@@ -189,7 +189,8 @@ def test_every_event_has_words() -> None:
         (
             None,
             ("barrier-1", "pothole-7"),
-            "There is no way through: remove barrier-1 and pothole-7, and there is one.",
+            "There is no way through: remove the barrier 15 m ahead in the third lane to my left and "
+            "pothole-7, and there is one.",
         ),
         ("late", (), "There is no way through any more: too little time is left."),
     ):

@@ -26,6 +26,8 @@ FACTS: dict[str, tuple[Any, Any]] = {
     "choices": (("none", "light"), ("none", "heavy")),
     "column": (403, 1),
     "count": (409, 1),
+    "tried": (503, 1),
+    "driven": (509, 7),
     "draws": (419, 200),
     "free": (421, 1),
     "high": (431.0, 1000),

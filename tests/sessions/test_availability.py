@@ -57,6 +57,7 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "ask", "about": "scene", "kind": "pothole"},
     {"do": "ask", "about": "confidence"},
     {"do": "ask", "about": "maintenance"},
+    {"do": "drop"},
     {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
 ]
 BESIDE_SESSIONS = {"teach", "forget"}

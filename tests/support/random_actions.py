@@ -12,6 +12,8 @@ from typing import Any, get_args
 from service.actions import Action, Term, dump, load
 from service.grammar import Language, Understood
 from service.grammar.sentences import Unsayable
+from service.styles import styles
+from sim.actions import GoalName
 from sim.planner_names import BUILT_IN, PROMISED
 
 KINDS = ("pothole", "vehicle", "barrier", "pedestrian", "av")
@@ -40,8 +42,9 @@ NUMBERS = (
 )
 PLAIN = (
     *("pause", "resume", "reset", "undo", "redo", "step", "rewind", "mode", "drive", "show", "hide"),
-    *("prefer", "save", "load", "record"),
+    *("prefer", "save", "load", "record", "goal", "style"),
 )
+GOALS = get_args(GoalName)
 VIEWS = ("road", "schematic", "occupancy", "plan", "log", "potholes", "sensors", "path", "metrics")
 METRICS = ("crashes", "successes", "success_rate", "steps", "moves", "distance")
 NAMES = (
@@ -169,6 +172,14 @@ class Maker:
                 )
             case "save" | "load":
                 keys["name"] = self.random.choice(NAMES)
+            case "goal":
+                keys["goal"] = self.pick(GOALS)
+                if keys["goal"] == "separates":
+                    keys["planners"] = self.random.sample(PLANNERS, 2)
+                elif keys["goal"] in ("harder", "easier") and self.chance(0.5):
+                    keys["degree"] = self.pick(("little", "lot"))
+            case "style":
+                keys["style"] = self.pick(tuple(styles()))
             case "record":
                 keys["on"] = self.chance(0.5)
         return {"do": do, **keys}

@@ -199,7 +199,9 @@ async def _answer(
 async def _run(context: Context, session: Session, message: Command | Actions) -> dict[str, Any]:
     heard = None
     if isinstance(message, Command):
-        heard = await context.interpreter.interpret(message.text, session, message.language)
+        heard = await context.interpreter.interpret(
+            message.text, session, message.language, asks=not message.dry_run
+        )
         utterance = heard.utterance
     else:
         utterance = Utterance(actions=tuple(message.actions))

@@ -68,7 +68,7 @@ async def run_command(
 
     A word that is not understood refuses it all, and says which.
     """
-    heard = await here.interpreter.interpret(body.text, session, body.language)
+    heard = await here.interpreter.interpret(body.text, session, body.language, asks=not body.dry_run)
 
     @respond_once
     def respond(outcome: Outcome) -> Response:

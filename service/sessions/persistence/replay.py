@@ -153,10 +153,12 @@ class Replay:
             session.undo_stack,
             session.playback_speed,
             session.language,
+            stored=True,
         )
         facts = transaction.perform(entry.sequence, said)
         before = session.run
         session.log_position.add_work(transaction.timeline.worked, 1)
+        step = transaction.undo_stack.is_step_after(session.undo_stack)
         session.adopt(transaction, entry.sequence, said)
         session.log_position.append(entry)
         self._check(entry)
@@ -170,7 +172,8 @@ class Replay:
                 sequence=entry.sequence,
                 changes=(),
                 before=before,
-            )
+            ),
+            step=step,
         )
         text = compose_reply(self._narrator, facts, answers) if held else ""
         self._add(_Line(entry.tick, text))

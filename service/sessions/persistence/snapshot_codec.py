@@ -63,7 +63,12 @@ class _Encoder:
                 [each.name, each.sequence, self._timeline(each.timeline)]
                 for each in history.bookmarks.values()
             ],
-            "ground": [history.base_entries, history.base_steps, history.base_paused],
+            "ground": [
+                history.base_entries,
+                history.base_steps,
+                history.base_paused,
+                history.fork_sequence,
+            ],
             "mixed": sorted(frozen.partial_changes),
             "conversation": frozen.conversation.to_json(),
             "last_line": frozen.last_line,
@@ -140,6 +145,7 @@ class _Encoder:
             step.paused_before,
             step.paused_after,
             None if jump is None else [self._timeline(jump.before), self._timeline(jump.after)],
+            step.speed,
         ]
 
 
@@ -168,46 +174,21 @@ def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
 
     Raises `ValueError`, `TypeError` or `LookupError` for invalid values.
     """
-    states = Unpacker(values["states"])
-    sequences, ticks, which, dumped = values["entries"]
-    actions: Sequence[WorldAction] = contract.load(dumped)  # type: ignore[assignment]  # none else is written
-    entries = [
-        Entry(sequence, tick, actions[number])
-        for sequence, tick, number in zip(sequences, ticks, which, strict=True)
-    ]
-    logs: list[PersistentList[Entry]] = []
-    for alike, *stretches in values["logs"]:
-        begin = logs[-1].shared[:alike] if alike else ()
-        logs.append(PersistentList([*begin, *_decode_runs(stretches, entries)]))
-    snapshots = [
-        Snapshot(states.runs[run].world.tick, states.runs[run], count) for run, count in values["snapshots"]
-    ]
-    moves = [each.encode("ascii") for each in values["moves"]]
-    timelines = [
-        Timeline.made(
-            states.configs[config],
-            states.runs[run],
-            logs[log].first(length),
-            _decode_runs(places, snapshots),
-            gap,
-            work,
-            worked,
-            _decode_runs(blocks, moves),
-        )
-        for config, run, log, length, places, gap, work, worked, blocks in values["timelines"]
-    ]
+    entries = _decode_entries(values["entries"])
+    timelines = _decode_timelines(values, entries)
 
     def step(parts: Sequence[Any]) -> UndoStep:
-        before, after, paused_before, paused_after, jump = parts
+        before, after, paused_before, paused_after, jump, speed = parts
         return UndoStep(
             tuple(entries[number] for number in before),
             tuple(entries[number] for number in after),
             paused_before,
             paused_after,
             None if jump is None else TimeJump(timelines[jump[0]], timelines[jump[1]]),
+            None if speed is None else (speed[0], speed[1]),
         )
 
-    ground, ground_steps, ground_paused = values["ground"]
+    ground, ground_steps, ground_paused, fork_sequence = values["ground"]
     return SessionSnapshot(
         session=session,
         sequence=values["sequence"],
@@ -223,6 +204,7 @@ def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
             base_entries=ground,
             base_steps=ground_steps,
             base_paused=ground_paused,
+            fork_sequence=fork_sequence,
         ),
         partial_changes=frozenset(values["mixed"]),
         conversation=Conversation.from_json(values["conversation"]),
@@ -232,6 +214,40 @@ def decode(values: Mapping[str, Any], session: str) -> SessionSnapshot:
             for tick, kind, text, ids, cell in values["lines"]
         ],
     )
+
+
+def _decode_entries(parts: Sequence[Any]) -> list[Entry]:
+    sequences, ticks, which, dumped = parts
+    actions: Sequence[WorldAction] = contract.load(dumped)  # type: ignore[assignment]  # none else is written
+    return [
+        Entry(sequence, tick, actions[number])
+        for sequence, tick, number in zip(sequences, ticks, which, strict=True)
+    ]
+
+
+def _decode_timelines(values: Mapping[str, Any], entries: Sequence[Entry]) -> list[Timeline]:
+    states = Unpacker(values["states"])
+    logs: list[PersistentList[Entry]] = []
+    for alike, *stretches in values["logs"]:
+        begin = logs[-1].shared[:alike] if alike else ()
+        logs.append(PersistentList([*begin, *_decode_runs(stretches, entries)]))
+    snapshots = [
+        Snapshot(states.runs[run].world.tick, states.runs[run], count) for run, count in values["snapshots"]
+    ]
+    moves = [each.encode("ascii") for each in values["moves"]]
+    return [
+        Timeline.made(
+            states.configs[config],
+            states.runs[run],
+            logs[log].first(length),
+            _decode_runs(places, snapshots),
+            gap,
+            work,
+            worked,
+            _decode_runs(blocks, moves),
+        )
+        for config, run, log, length, places, gap, work, worked, blocks in values["timelines"]
+    ]
 
 
 def _common_prefix_length(one: Sequence[Entry], other: Sequence[Entry]) -> int:

@@ -151,7 +151,7 @@ def test_only_more_than_real_time_is_a_hurry() -> None:
     assert [is_accelerated(pace) for pace in (0.25, 1.0, 1.5, MAX)] == [False, False, True, True]
 
 
-async def test_it_is_told_changed_and_no_step(service: Service) -> None:
+async def test_it_is_told_changed_and_a_step_of_undo(service: Service) -> None:
     path = await service.session()
     (ticker,) = service.clock.tickers
     assert ticker.period_s == 0.5
@@ -165,16 +165,30 @@ async def test_it_is_told_changed_and_no_step(service: Service) -> None:
     assert look["playback_speed"] == 4.0
     state = await service.state(path)
     assert (state["digest"], state["playback_speed"]) == (before["digest"], 4.0)
-    assert (await service.act(path, {"do": "undo"})).status_code == 422
+    undone = (await service.act(path, {"do": "undo"})).json()
+    assert undone["changes"] == [{"path": "playback_speed", "before": 4.0, "after": 1.0}]
+    assert undone["reply"] == "Taken back. The playback speed: 4× → 1×."
+    assert ticker.period_s == 0.5
+    assert (await service.act(path, {"do": "redo"})).json()["changes"] == answer.json()["changes"]
     again = await service.act(path, {**SET, "value": 4})
     assert again.json()["reply"] == "The playback speed is 4× already."
 
 
-async def test_undoing_another_change_leaves_the_speed(service: Service) -> None:
+async def test_undoing_a_change_and_the_speed_together_gives_both_back(service: Service) -> None:
     path = await service.session()
     await service.act(path, {"do": "add", "kind": "pothole", "count": 1}, {**SET, "value": "max"})
     await service.act(path, {"do": "undo"})
+    assert (await service.state(path))["playback_speed"] == 1.0
+    await service.act(path, {"do": "redo"})
     assert (await service.state(path))["playback_speed"] == "max"
+
+
+async def test_undoing_a_change_of_the_world_leaves_a_speed_set_before(service: Service) -> None:
+    path = await service.session()
+    await service.act(path, {**SET, "value": 4})
+    await service.act(path, {"do": "add", "kind": "pothole", "count": 1})
+    await service.act(path, {"do": "undo"})
+    assert (await service.state(path))["playback_speed"] == 4.0
 
 
 async def test_a_refused_speed_changes_nothing(service: Service) -> None:

@@ -1,0 +1,79 @@
+"""The words of `answers.yaml`: how a question is answered, and how a sentence leans on the one before.
+
+They are kept apart from the lexicon, since "yes" or "the second one" mean nothing in a request.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from service.grammar.lexicon import Lexicon
+from service.grammar.numbers import Found
+from service.grammar.tokens import Token
+
+WHOLE = "whole"
+"""Concept of what is an answer by itself; its value says which."""
+
+NUMBER = "number"
+"""Concept of the number of a choice: "the second one"."""
+
+BEFORE = "before"
+AFTER = "after"
+"""Concepts of words around an answer that say nothing: "I mean", "please"."""
+
+FOLLOWS = "follows"
+"""Concept of the beginnings of a sentence that leans on the one before: "and", "what about"."""
+
+CORRECTS = "corrects"
+"""Concept of the beginnings of a sentence that corrects the one before: "I said", "make it"."""
+
+TOO = "too"
+"""Concept of what may end a sentence that leans on the one before: "as well"."""
+
+INSTEAD = "instead"
+"""Concept of what makes the last request another one: "in lane 5 instead"."""
+
+YES, NO, NEITHER, DROP, LAST = "yes", "no", "neither", "drop", "last"
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """The words around questions and answers in one language."""
+
+    phrases: Lexicon
+    replaces: str
+    """words between a sentence and what stands in the place of a part of it: "I mean" """
+    no_such_choice: str
+    """what is said where a choice is answered that there is none of"""
+
+    @classmethod
+    def from_data(cls, data: Mapping[str, Any]) -> Answers:
+        """The words of `answers.yaml`; empty for a language without that file."""
+        phrases = Lexicon({})
+        phrases.add_section(data.get("phrases", {}))
+        return cls(phrases, data.get("replaces", ""), data.get("no_such_choice", ""))
+
+    def whole(
+        self, tokens: Sequence[Token], numbers: Mapping[int, Found], ordinals: Mapping[int, int]
+    ) -> str | int | None:
+        """What all of some tokens answer: a word of an answer, the number of a choice, or None."""
+        for end, senses, _ in self.phrases.matches(tokens, 0, numbers, ordinals) if tokens else ():
+            for sense in senses:
+                if end == len(tokens) and sense.concept in (WHOLE, NUMBER):
+                    return sense.value  # type: ignore[no-any-return]
+        return None
+
+    def beginning(self, tokens: Sequence[Token], concept: str) -> int:
+        """How many tokens at the beginning are a phrase of a concept, at most."""
+        found = self.phrases.matches(tokens, 0, {}, {}) if tokens else ()
+        return max((end for end, senses, _ in found if any(s.concept == concept for s in senses)), default=0)
+
+    def ending(self, tokens: Sequence[Token], concept: str) -> int:
+        """How many tokens at the end are a phrase of a concept, at most."""
+        for start in range(len(tokens)):
+            for end, senses, _ in self.phrases.matches(tokens, start, {}, {}):
+                if end == len(tokens) and any(sense.concept == concept for sense in senses):
+                    return end - start
+        return 0

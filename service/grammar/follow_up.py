@@ -1,0 +1,189 @@
+"""Reads sentences that lean on the one before: "and in lane 5?", "the same on the right", "I said three".
+
+What is said stands in the place of a part of the last request, or continues it, as it would within one
+sentence. Nothing else changes: the outcome is as many requests, of the same kinds. A correction takes the
+last request back first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TypeAlias
+
+from service.actions import Action
+from service.actions.table import traits_of
+from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO
+from service.grammar.engine import Language
+from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
+from service.grammar.said_before import can_be_corrected, done_anew, said_before
+from service.grammar.sentences import Unsayable
+from service.grammar.tokens import Token, normalise, tokenise
+from service.grammar.topic import Topic
+from service.grammar.work_budget import BudgetExceededError, WorkBudget
+
+MAX_WORDS = 15
+"""Longer sentences say themselves what they are about."""
+
+Actions: TypeAlias = tuple[Action, ...]
+
+
+def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Parse) -> Parse:
+    """What a sentence means after the one before it; `parsed` is what it means by itself.
+
+    A sentence that is understood by itself means that, but for a short one that goes on with a question:
+    "and left?" asks the same of the left.
+    """
+    alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
+    if not topic.actions or topic.undone or not (alone or _goes_on_asking(topic, parsed)):
+        return parsed
+    tokens = tokenise(normalise(text), language.data.contractions)
+    if len(tokens) > MAX_WORDS:
+        return parsed
+    try:
+        found = _Leaning(language, text, tokens, topic).read()
+    except BudgetExceededError:
+        return parsed
+    if found is None or alone or text.rstrip().endswith("?"):
+        return found or parsed
+    assert isinstance(parsed, Understood)
+    return _which(language, text, found, parsed)
+
+
+def _goes_on_asking(topic: Topic, parsed: Parse) -> bool:
+    asked = all(traits_of(action).is_question for action in topic.actions)
+    return asked and isinstance(parsed, Understood)
+
+
+def _which(language: Language, text: str, found: Parse, alone: Understood) -> Parse:
+    """The question whether the last question goes on or a request is made."""
+    if not isinstance(found, Understood):
+        return alone
+    readings = (found.actions, alone.actions)
+    try:
+        choices = tuple(Choice(language.sentence(actions), actions) for actions in readings)
+    except Unsayable:
+        return alone
+    return Ambiguous(text, language.data.messages["which"], choices)
+
+
+class _Leaning:
+    """One sentence that may lean on the one before it."""
+
+    def __init__(self, language: Language, text: str, tokens: Sequence[Token], topic: Topic) -> None:
+        self._language = language
+        self._answers = language.data.answers
+        self._text = text
+        self._plain = normalise(text)
+        self._tokens = _without_marks(tokens)
+        self._topic = topic
+        self._spoken_of = replace(topic, actions=(), kind=None, removed=False, undone=False)
+        self._work = WorkBudget()
+
+    def read(self) -> Parse | None:
+        """The reading; None where the sentence does not lean on another, or fits nowhere."""
+        tokens, answers = self._tokens, self._answers
+        follows, corrects = answers.beginning(tokens, FOLLOWS), answers.beginning(tokens, CORRECTS)
+        instead = answers.ending(tokens, INSTEAD)
+        if not (follows or corrects or instead):
+            return None
+        correcting = bool(corrects > follows or instead)
+        start = corrects if corrects > follows else follows
+        rest = tokens[start : len(tokens) - max(instead, answers.ending(tokens, TOO))]
+        if not rest:
+            return None
+        done = self._topic.actions
+        if correcting and not can_be_corrected(self._topic):
+            return None
+        base = said_before(self._language, self._topic, self._work)
+        if base is None or not all(traits_of(action).amendable for action in done):
+            return None
+        meant = self._amended(base, done, rest, goes_on=not correcting)
+        meant = meant or self._elsewhere(done, rest)
+        if meant is not None:
+            return Understood(self._text, self._whole(meant, correcting))
+        return self._question(base, done, rest, correcting)
+
+    def _whole(self, meant: Actions, correcting: bool) -> Actions:
+        return done_anew(self._topic, meant) if correcting else meant
+
+    def _amended(self, base: str, done: Actions, rest: Sequence[Token], *, goes_on: bool) -> Actions | None:
+        """The last request with what was said in the place of a part of it, or added to it."""
+        if goes_on and self._tokens[0].text in self._language.joiners:
+            parsed = self._read(f"{base} {self._written(self._tokens)}")
+            if (
+                parsed is not None
+                and parsed[: len(done)] == done
+                and shape(parsed[len(done) :]) == shape(done)
+            ):
+                return parsed[len(done) :]
+        for part in self._parts(rest):
+            said = self._written(part)
+            for whole in (f"{base}, {self._answers.replaces} {said}", f"{base} {said}"):
+                parsed = self._read(whole)
+                if parsed is not None and parsed != done and shape(parsed) == shape(done):
+                    return parsed
+        return None
+
+    def _elsewhere(self, done: Actions, rest: Sequence[Token]) -> Actions | None:
+        """The last request at another place, where the place as it was said cannot be replaced by words."""
+        if not all(getattr(action, "where", None) for action in done):
+            return None
+        anywhere: Actions = tuple(replace(action, where=None) for action in done)  # type: ignore[type-var]
+        try:
+            base = self._language.sentence(anywhere)
+        except Unsayable:
+            return None
+        parsed = self._read(f"{base} {self._written(rest)}")
+        if (
+            parsed is None
+            or len(parsed) != len(done)
+            or not all(getattr(each, "where", None) for each in parsed)
+        ):
+            return None
+        placed = tuple(replace(action, where=None) for action in parsed)  # type: ignore[type-var]
+        return parsed if placed == anywhere and parsed != done else None
+
+    def _question(self, base: str, done: Actions, rest: Sequence[Token], correcting: bool) -> Parse | None:
+        """The question which part of the last request is meant, where there are several."""
+        text = f"{base}, {self._answers.replaces} {self._written(rest)}"
+        parsed = self._language.read(text, self._spoken_of, self._work, asking=True)
+        if not isinstance(parsed, Ambiguous):
+            return None
+        meant = [choice.actions for choice in parsed.choices if shape(choice.actions) == shape(done)]
+        try:
+            choices = [self._whole(actions, correcting) for actions in meant]
+            told = tuple(Choice(self._language.sentence(actions), actions) for actions in choices)
+        except Unsayable:
+            return None
+        return Ambiguous(self._text, parsed.question, told) if len(told) > 1 else None
+
+    def _parts(self, tokens: Sequence[Token]) -> Iterator[Sequence[Token]]:
+        """The tokens, and then without the words before and after that say nothing."""
+        yield tokens
+        start = self._answers.beginning(tokens, BEFORE)
+        end = len(tokens) - self._answers.ending(tokens, AFTER)
+        if start < end and (start, end) != (0, len(tokens)):
+            yield tokens[start:end]
+
+    def _read(self, text: str) -> Actions | None:
+        parsed = self._language.read(text, self._spoken_of, self._work, asking=False)
+        return parsed.actions if isinstance(parsed, Understood) else None
+
+    def _written(self, tokens: Sequence[Token]) -> str:
+        return self._plain[tokens[0].start : tokens[-1].end]
+
+
+def shape(actions: Sequence[Action]) -> list[object]:
+    """What kinds of request some actions are."""
+    return [
+        (action.do, getattr(action, "about", None), getattr(action, "parameter", None)) for action in actions
+    ]
+
+
+def _without_marks(tokens: Sequence[Token]) -> Sequence[Token]:
+    """The tokens without marks at the end."""
+    end = len(tokens)
+    while end and not any(char.isalnum() for char in tokens[end - 1].text):
+        end -= 1
+    return tokens[:end]

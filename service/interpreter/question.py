@@ -1,0 +1,63 @@
+"""Questions of ours: how one becomes a session's pending question, and how the next sentence answers it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from service.actions import Drop
+from service.grammar import Language as Grammar
+from service.grammar.answers import NoChoice, NoSuchChoice, read_answer
+from service.grammar.parse_types import Ambiguous as AmbiguousParse
+from service.grammar.parse_types import Choice, Parse, Refused, Understood
+from service.problems import Ambiguous
+from service.sessions.pending import PendingChoice, PendingQuestion
+
+
+class Asked(Ambiguous):
+    """The problem of a sentence that is asked about, with the question as it may become pending."""
+
+    def __init__(self, question: PendingQuestion, detail: str | None = None) -> None:
+        """`detail`: what is said instead of the question alone."""
+        told = question.to_json()
+        super().__init__(detail or question.question, choices=told["choices"], source=question.source)
+        self.question = question
+
+    def becomes_pending(self) -> None:
+        """Note in the document that the session waits for the answer."""
+        self.more = {**self.more, "pending": self.question.to_json()}
+
+
+def asked_by(parse: AmbiguousParse, language: str, pending: PendingQuestion | None = None) -> Asked:
+    """The problem that asks what a sentence means; one that is `pending` already is asked again."""
+    if pending is not None and [each.actions for each in parse.choices] == [
+        each.actions for each in pending.choices
+    ]:
+        return Asked(pending, parse.question)
+    choices = tuple(PendingChoice(choice.text, choice.actions) for choice in parse.choices)
+    return Asked(PendingQuestion(parse.text, parse.question, choices, "grammar", language))
+
+
+def answered(language: Any, code: str, text: str, parse: Parse, pending: PendingQuestion | None) -> Parse:
+    """What a sentence means while a question is pending: an answer to it, or what it means by itself.
+
+    A request of its own is an answer only where it says no more than the words of one choice.
+    """
+    if pending is None or not isinstance(language, Grammar):
+        return parse
+    choices = [Choice(each.text, each.actions) for each in pending.choices]
+    literal = not isinstance(parse, Refused) or code != pending.language
+    answer = read_answer(language, text, choices, literal=literal)
+    match answer:
+        case None:
+            return parse
+        case NoChoice.DROPPED:
+            return Understood(text, (Drop(),))
+        case NoChoice.UNCLEAR:
+            return parse if literal else AmbiguousParse(text, pending.question, tuple(choices))
+        case NoSuchChoice(number=number):
+            if literal:
+                return parse
+            said = language.data.answers.no_such_choice.format(number=number, count=len(choices))
+            return AmbiguousParse(text, f"{said} {pending.question}", tuple(choices))
+        case actions:
+            return Understood(text, actions)

@@ -1,0 +1,53 @@
+"""The pending question of a session: what the service asked last and nobody answered yet.
+
+One question is pending at a time. The next utterance may answer it; a request of its own drops it. It is
+stored nowhere: after a restart nothing is pending.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from service import actions as contract
+from service.actions import Action
+from service.sessions.log import LogEvent
+
+
+@dataclass(frozen=True, slots=True)
+class PendingChoice:
+    """One answer that was offered: a sentence, and the actions it means."""
+
+    text: str
+    actions: tuple[Action, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class PendingQuestion:
+    """A question, the utterance that it was asked about, and the answers that were offered."""
+
+    text: str
+    question: str
+    choices: tuple[PendingChoice, ...]
+    source: str
+    """who understood the utterance so far: the grammar, or a language model"""
+    language: str
+
+    def to_json(self) -> dict[str, Any]:
+        """The question as JSON values, the form in which clients see it."""
+        choices = [{"text": each.text, "actions": contract.dump(each.actions)} for each in self.choices]
+        return {"text": self.text, "question": self.question, "choices": choices}
+
+
+@dataclass(frozen=True, slots=True)
+class Talk:
+    """What questions about the conversation itself are answered from."""
+
+    pending: PendingQuestion | None = None
+    changes: Callable[[], tuple[LogEvent, ...]] = tuple
+    """the log lines of what was done, the latest last"""
+
+
+NO_TALK = Talk()
+"""That of a session nobody has talked to."""
