@@ -74,7 +74,7 @@ def test_contact_within_the_tick_is_that_of_the_judge() -> None:
         contact, ticks = first_contact(one, other), ticks_to_contact(one, other)
         if contact is not None:
             assert ticks == pytest.approx(float(contact))
-            assert least_gap(one, other) == 0
+            assert least_gap(one, other) == pytest.approx(0, abs=1e-9)
         else:
             assert ticks is None or ticks >= 1
 
