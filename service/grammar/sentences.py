@@ -421,6 +421,8 @@ class Sentences:
             raise Unsayable(f"no word for {key!r} of {section}") from None
 
     def _say(self, key: str, **parts: Any) -> str:
+        if key not in self._words:
+            raise Unsayable(f"no sentence for {key!r}")
         return str(self._words[key]).format(**parts)
 
 
