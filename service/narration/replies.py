@@ -207,8 +207,11 @@ class Replies:
         before = [change.before for change in applied.changes if change.path == KINDS[kind].plural]
         if not before:
             return self._say("set_count_already", are=are, count=count, things=things)
-        were = self._sayings.say("replies", "were", "one" if before[0] == 1 else "many", before=before[0])
-        return self._say("set_count", are=are, count=count, things=things, were=were)
+        form = {0: "none", 1: "one"}.get(before[0], "many")
+        were = self._sayings.say("replies", "were", form, before=before[0])
+        return self._say(
+            "set_count" if count else "set_count_none", are=are, count=count, things=things, were=were
+        )
 
     def _undone(self, undone: Undone) -> str:
         """What is as it was before, or as it was made again."""
