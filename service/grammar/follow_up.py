@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from service.actions import Action, Advise, Ask
 from service.actions.table import traits_of
@@ -188,7 +188,7 @@ class _Leaning:
         """The last request at another place, where the place as it was said cannot be replaced by words."""
         if not all(getattr(action, "where", None) for action in done):
             return None
-        anywhere: Actions = tuple(replace(action, where=None) for action in done)  # type: ignore[type-var]
+        anywhere = _anywhere(done)
         try:
             base = self._language.sentence(anywhere)
         except Unsayable:
@@ -200,8 +200,7 @@ class _Leaning:
             or not all(getattr(each, "where", None) for each in parsed)
         ):
             return None
-        placed = tuple(replace(action, where=None) for action in parsed)  # type: ignore[type-var]
-        return parsed if placed == anywhere and parsed != done else None
+        return parsed if _anywhere(parsed) == anywhere and parsed != done else None
 
     def _question(self, base: str, done: Actions, rest: Sequence[Token], correcting: bool) -> Parse | None:
         """The question which part of the last request is meant, where there are several."""
@@ -231,6 +230,11 @@ class _Leaning:
 
     def _written(self, tokens: Sequence[Token]) -> str:
         return self._plain[tokens[0].start : tokens[-1].end]
+
+
+def _anywhere(actions: Sequence[Any]) -> Actions:
+    """The actions without their places."""
+    return tuple(replace(action, where=None) for action in actions)
 
 
 def shape(actions: Sequence[Action]) -> list[object]:

@@ -143,6 +143,12 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return Unclear(start, end)
 
 
+def _ends_here(lattice: Lattice, outer: Edge) -> bool:
+    """Whether no phrase begins in an edge and goes on behind it, as the "third lane" of "the third" does."""
+    inside = range(outer.start + 1, outer.end)
+    return all(edge.end <= outer.end for at in inside for edge in lattice.edges[at])
+
+
 def _keep_whole(lattice: Lattice, outer: Edge) -> None:
     """Let no word of a reference mean anything by itself: the "one" of "the first one" is no amount."""
     for at in range(outer.start, outer.end):
