@@ -158,7 +158,7 @@ def test_each_language_has_the_same_sentences_and_no_stale_ones(language: str) -
         ),
         (
             EditError("at_its_limit", "direction", setting="traffic", now="heavy"),
-            "traffic is at its limit already: heavy.",
+            "Traffic is at its limit already: heavy.",
             "Der Verkehr ist schon an der Grenze: dicht.",
         ),
     ],
