@@ -6,6 +6,7 @@ from service.contract.advice import Advice, AdviceOption, AdvicePhysics, AdviceQ
 from service.contract.command import (
     Answer,
     Change,
+    ChoiceModel,
     CommandResult,
     ConfigChanged,
     Correction,

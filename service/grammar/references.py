@@ -85,9 +85,10 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     unclear: list[Unclear] = []
     for edge in [edge for starting in lattice.edges for edge in starting if edge[2][0] in _REFERRING]:
         found = _pronoun(edge, lattice, topic) if edge.sense.concept == REFERS else _pointed(edge, topic)
-        if edge.sense.concept == REFERS and (
+        of_several = edge.sense.concept == REFERS and (
             isinstance(edge.sense.value, dict) or edge.sense.value in _WHOLE
-        ):
+        )
+        if of_several and _ends_here(lattice, edge):
             _keep_whole(lattice, edge)
         if isinstance(found, Unclear):
             unclear.append(found)
