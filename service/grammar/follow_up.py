@@ -41,7 +41,11 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     "and left?" asks the same of the left.
     """
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
-    if not topic.actions or topic.undone or not (alone or _goes_on_asking(topic, parsed)):
+    if not topic.actions or topic.undone:
+        return parsed
+    if isinstance(parsed, Understood) and _takes_the_place(language, text, topic, parsed):
+        return replace(parsed, actions=done_anew(topic, parsed.actions))
+    if not (alone or _goes_on_asking(topic, parsed)):
         return parsed
     tokens = tokenise(normalise(text), language.data.contractions)
     if len(tokens) > MAX_WORDS:
@@ -55,6 +59,14 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
         return found or parsed
     assert isinstance(parsed, Understood)
     return _after_question(language, leaning, found, parsed)
+
+
+def _takes_the_place(language: Language, text: str, topic: Topic, parsed: Understood) -> bool:
+    """Whether a request says at its end that it is meant instead of the last one: "left, I mean"."""
+    if not topic.steps or not about_the_same(topic.actions, parsed.actions):
+        return False
+    tokens = _without_marks(tokenise(normalise(text), language.data.contractions))
+    return language.data.answers.ending(tokens, INSTEAD) > 0
 
 
 def _goes_on_asking(topic: Topic, parsed: Parse) -> bool:
