@@ -251,7 +251,8 @@ class Sentences:
         if count == "all":
             return self._say("remove_all", things=self._entry("things", kind)[1], where=self._where(where))
         if count == 1 and where == Where(nearest=True):
-            return self._say("remove_nearest", thing=self._entry("things", kind)[0])
+            named = self._entry("things", kind)
+            return self._say("remove_nearest", thing=named[0], nearest=named[-1])
         if count == 1 and where is not None and where.id is not None and where == Where(id=where.id):
             if where.id.rpartition("-")[0] != kind:
                 raise Unsayable(f"{where.id} is no {kind}")
@@ -307,7 +308,7 @@ class Sentences:
         said = ""
         if where.lane is not None:
             key = "lane_number" if isinstance(where.lane, int) else "lane"
-            said += words[key].format(lane=where.lane)
+            said += words[key].format(lane=self._words.get("lanes", {}).get(where.lane, where.lane))
         if where.lanes is not None:
             said += words["lanes"].format(first=where.lanes[0], last=where.lanes[1])
         if where.each is not None:
@@ -331,7 +332,7 @@ class Sentences:
             told = number(value)
         elif parameter == "traffic":
             self._value(parameter, value)
-            told = value
+            told = self._words.get("traffic_levels", {}).get(value, value)
         else:
             told = self._value(parameter, value)
         return self._say("set", parameter=self._word("parameters", parameter), value=told)
