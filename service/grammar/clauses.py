@@ -106,7 +106,7 @@ class Divider:
             clause, used = self._join(parts[:end], at, context)
             if clause is None:
                 return self._single(parts[at], context), 1
-            if clause.negated:
+            if not clause.actions:  # it says only what not to do, or asks for itself
                 return clause, used
             said = parts[at : at + used]
             heads = self._composition.heads(clause.filled, said)
@@ -242,8 +242,10 @@ class Divider:
         return None
 
     def _calls(self, part: Fragment) -> bool:
-        """Whether a part only calls for attention: "and then, please tell me, …"."""
-        return any(e.concept == INTERJECTION and e.end == part.end for e in self._lattice.edges[part.start])
+        """Whether a part only calls for attention: "and then, please tell me, …", but not "then right"."""
+        whole = [edge for edge in self._lattice.edges[part.start] if edge.end == part.end]
+        calls = any(edge.concept == INTERJECTION for edge in whole)
+        return calls and all(edge.sense.value is None for edge in whole)
 
     def _says_again(self, part: Fragment) -> bool:
         """Whether a part only says how many were meant: "a cone, just one" is not two."""

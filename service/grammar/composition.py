@@ -86,7 +86,7 @@ class Composition:
                 return True
             apart = at > 0 and part.after in (BUT, STOP)
             says = self.verb_of_its_own(part) is not None and verbs.isdisjoint(a["do"] for a in own[1])
-            if (apart or says or _says_what_to_do(own[0])) and not _done_by(own[1], joint[1]):
+            if (apart or says or _says_what_to_do(own[0])) and not done_by(own[1], joint[1]):
                 return True
         return False
 
@@ -152,10 +152,10 @@ def within(own: Sequence[Mapping[str, Any]], joint: Sequence[Mapping[str, Any]])
         return False
     if roads and all(action["do"] != _SCENARIO for action in joint):
         return False
-    return _done_by(own, joint)
+    return done_by(own, joint)
 
 
-def _done_by(own: Sequence[Mapping[str, Any]], joint: Sequence[Mapping[str, Any]]) -> bool:
+def done_by(own: Sequence[Mapping[str, Any]], joint: Sequence[Mapping[str, Any]]) -> bool:
     """Whether all that some actions set is set by others."""
     left = [fact for action in joint if action["do"] in _GATHERING for fact in _facts(action)]
     for action in own:

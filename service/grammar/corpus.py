@@ -12,6 +12,7 @@ from service.actions import QUESTIONS, MetricName, ViewName, load
 from service.grammar.sentences import Sentences, Unsayable
 from service.styles import styles
 from sim.actions import (
+    Direction,
     GoalName,
     Layout,
     Parameter,
@@ -90,6 +91,26 @@ def _things() -> Iterator[dict[str, Any]]:
         yield {"do": "remove", "kind": kind, "count": 1, "where": {"nearest": True}}
         yield {"do": "set_count", "kind": kind, "count": 10}
     yield {"do": "remove", "kind": "everything", "count": "all"}
+    yield from _rearranged()
+
+
+def _rearranged() -> Iterator[dict[str, Any]]:
+    for kind in PLACEABLE:
+        nearest = {"kind": kind, "count": 1, "where": {"nearest": True}}
+        for side in get_args(Direction):
+            yield {"do": "move", **nearest, "by": {"side": side, "cells": 1}}
+        for to in ({"lane": "left"}, {"lane": 3}, {"row": 12}, {"side": "beside"}):
+            yield {"do": "move", **nearest, "to": to}
+        yield {"do": "move", "kind": kind, "count": "all", "to": {"lane": "right"}}
+        yield {"do": "copy", **nearest}
+        yield {"do": "remove", "kind": kind, "count": "half"}
+        yield {"do": "remove", "kind": kind, "count": "all", "except": {"nearest": True}}
+        yield {"do": "add", "kind": kind, "count": 1, "where": {"each": "lane"}}
+        for other in PLACEABLE:
+            if other is not kind:
+                yield {"do": "replace", "kind": kind, "count": "all", "by": other}
+                two = [{"kind": each, "where": {"nearest": True}} for each in (kind, other)]
+                yield {"do": "swap", "first": two[0], "second": two[1]}
 
 
 def _placed(action: dict[str, Any], where: dict[str, Any] | None) -> dict[str, Any]:

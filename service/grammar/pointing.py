@@ -1,7 +1,7 @@
 """Finds what a sentence points at: things that are on the road already, and places told from them.
 
 Each becomes one edge. `meant.the` (the nearest car, all cones in lane 2, it) and `meant.some` (two cars) are
-things; `place` gains "behind that car"; `goal` is where things are to be; `becomes` what they are turned into;
+things; `place` gains "behind that car"; `goal` is where things are to be; `becomes` what they turn into;
 `all_except` all but some. The words that make these are concepts of the language's data.
 """
 
@@ -34,18 +34,21 @@ NEAR = "near"
 EGO = "ego"
 """Concept of words for the vehicle itself."""
 MEANT_THE, MEANT_SOME, GOAL_TOLD, GOAL_AT = "meant.the", "meant.some", "goal", "goal.at"
+BECOME = ("becomes.into", "becomes.with", "becomes.for", "becomes.plain")
 ALL_EXCEPT, ALL_BUT, ALL_OTHERS = "all_except", "all_but", "all_others"
 POINTING = frozenset((RELATION, GOAL, BECOMES, EXCEPT, ONES, ALL_WORD)) | frozenset(
-    (MEANT_THE, MEANT_SOME, GOAL_TOLD, GOAL_AT, ALL_EXCEPT, ALL_BUT, ALL_OTHERS)
-    + ("becomes.into", "becomes.with", "becomes.for", "becomes.plain")
+    (MEANT_THE, MEANT_SOME, GOAL_TOLD, GOAL_AT, ALL_EXCEPT, ALL_BUT, ALL_OTHERS, *BECOME)
 )
 """Every concept of this file: those of words, and those of the edges made from them."""
 _TRIGGERS = frozenset((RELATION, GOAL, BECOMES, EXCEPT)) | frozenset(
-    ("v.shift", "v.put", "v.exchange", "v.turn_into", "v.substitute", "v.copy")
+    ("v.shift", "v.put", "v.exchange", "v.turn_into", "v.substitute", "v.copy", "v.were", "v.became")
 )
 EVERYTHING = "everything"
 MAX_PARTS = 3
 """How many parts of a place may stand one after another."""
+_PLACES = ("side", "place")
+_BARE_SIDES = ({"side": "left"}, {"side": "right"})
+"""What is no place to go to, but a way: "to the left"."""
 _ALL = frozenset(("all", "the_many", "those", "bare_many"))
 
 
@@ -56,6 +59,8 @@ class Meant:
     kind: str
     count: int | str
     where: dict[str, Any] | None = None
+    stay: dict[str, Any] | None = None
+    """those of them that are left out"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +86,13 @@ def add_pointing(lattice: Lattice) -> None:
         ]
 
 
-def _things_at(lattice: Lattice, at: int) -> Iterator[tuple[int, tuple[Meant, ...], bool]]:
-    """Where they end, the things that the words from here name, and whether they are definite ones."""
+def _things_at(
+    lattice: Lattice, at: int, *, placed: bool = False
+) -> Iterator[tuple[int, tuple[Meant, ...], bool]]:
+    """Where they end, the things that the words from here name, and whether they are definite ones.
+
+    `placed`: a place follows, so that "the car" may be another one than the vehicle itself.
+    """
     if at >= lattice.size:
         return
     for edge in lattice.edges[at]:
@@ -99,7 +109,7 @@ def _things_at(lattice: Lattice, at: int) -> Iterator[tuple[int, tuple[Meant, ..
             kinds = [name.rpartition("-")[0] for name in amount.ids]
             ids = zip(kinds, amount.ids, strict=True)
             yield edge.end, tuple(Meant(kind, 1, {"id": name}) for kind, name in ids), True
-        elif form == "the_one" and _names_ego(lattice, at, edge.end):
+        elif form == "the_one" and not placed and _names_ego(lattice, at, edge.end):
             continue  # "the car" is the vehicle itself
         elif (meant := _meant(form, amount)) is not None:
             yield edge.end, (meant,), form not in ("counted", "bare_many")
@@ -125,7 +135,7 @@ def _meant(form: str, amount: Amount) -> Meant | None:
 
 def _placed_things(lattice: Lattice, at: int) -> Iterator[tuple[int, tuple[Meant, ...], bool]]:
     """The same with a place after them: "the cones in lane 2"."""
-    for end, things, definite in list(_things_at(lattice, at)):
+    for end, things, definite in list(_things_at(lattice, at, placed=True)):
         if len(things) == 1 and things[0].where is None:
             for stop, where in _places_from(lattice, end):
                 yield stop, (Meant(things[0].kind, things[0].count, where),), definite
@@ -141,11 +151,8 @@ def _add_landmarks(lattice: Lattice) -> None:
                     of = _landmark(things)
                     if of is None or (_is_ego(lattice, at, end) and "id" not in of):
                         continue
-                    here = lattice.edges[at]
-                    lattice.edges[at] = [
-                        e for e in here if e.end != end or e.concept not in ("side", "place")
-                    ]
-                    lattice.edges[at].append(Edge(at, end, Sense("place", {**side, "of": of})))
+                    other = [e for e in lattice.edges[at] if e.end != end or e.concept not in _PLACES]
+                    lattice.edges[at] = [*other, Edge(at, end, Sense("place", {**side, "of": of}))]
 
 
 def _past_article(lattice: Lattice, at: int) -> list[int]:
@@ -167,7 +174,7 @@ def _landmark(things: tuple[Meant, ...]) -> dict[str, Any] | None:
 
 def _is_ego(lattice: Lattice, start: int, end: int) -> bool:
     """Whether these words tell a place from the vehicle: "behind the car"."""
-    return any(edge.end == end and edge.concept in ("side", "place") for edge in lattice.edges[start])
+    return any(edge.end == end and edge.concept in _PLACES for edge in lattice.edges[start])
 
 
 def _places_from(lattice: Lattice, at: int, parts: int = MAX_PARTS) -> Iterator[tuple[int, dict[str, Any]]]:
@@ -177,6 +184,8 @@ def _places_from(lattice: Lattice, at: int, parts: int = MAX_PARTS) -> Iterator[
     for edge in lattice.edges[at]:
         concept, value = edge.sense.concept, edge.sense.value
         if (concept == GLUE and not edge.sense.form) or concept == "prep":
+            if any(mark.concept == GOAL and mark.end == edge.end for mark in lattice.edges[at]):
+                continue  # "to" does not lead to where a thing is, but to where it shall be
             yield from _places_from(lattice, edge.end, parts)
             continue
         part: dict[str, Any] | None = None
@@ -200,14 +209,14 @@ def _places_from(lattice: Lattice, at: int, parts: int = MAX_PARTS) -> Iterator[
 
 
 def _add_goals(lattice: Lattice) -> None:
-    """ "To lane 3", "behind that car": where things are to be. `goal.at` needs a verb of putting: "in lane 3"."""
+    """ "To lane 3", "behind that car": where things are to be; `goal.at` ("in lane 3") after verbs of putting."""
     for at in range(lattice.size):
         found = [
             Edge(at, end, Sense(GOAL_TOLD, where))
             for mark in lattice.edges[at]
             if mark.concept == GOAL
             for end, where in _places_from(lattice, mark.end)
-            if not where.keys() & {"each", "id", "nearest"}
+            if not where.keys() & {"each", "id", "nearest"} and where not in _BARE_SIDES
         ]
         for end, where in list(_places_from(lattice, at)):
             if not where.keys() & {"each", "id", "nearest"}:
@@ -248,10 +257,8 @@ def _add_exceptions(lattice: Lattice) -> None:
                     name = ALL_EXCEPT if "except" in value else ALL_BUT
                     found.append(Edge(at, stop, Sense(name, value)))
                 if kind == EVERYTHING:
-                    found += [
-                        Edge(at, stop, Sense(ALL_OTHERS, others))
-                        for stop, others in _other_kinds(lattice, mark, ())
-                    ]
+                    others = _other_kinds(lattice, mark, ())
+                    found += [Edge(at, stop, Sense(ALL_OTHERS, kinds)) for stop, kinds in others]
         lattice.edges[at] += found
 
 
@@ -285,6 +292,18 @@ def _other_kinds(
     lattice: Lattice, at: int, named: tuple[str, ...]
 ) -> Iterator[tuple[int, tuple[Meant, ...]]]:
     """All things of the kinds that an exception does not name: "the cones and the cars"."""
+    if not named:
+        for start in _past_article(lattice, at):
+            for end, things, _ in list(_things_at(lattice, start)):
+                if len(things) == 1 and things[0].count == 1 and things[0].where == {"nearest": True}:
+                    one = things[0]
+                    yield (
+                        end,
+                        tuple(
+                            Meant(kind, "all", stay=one.where if kind == one.kind else None)
+                            for kind in PLACEABLE
+                        ),
+                    )
     for edge in lattice.edges[at] if at < lattice.size else ():
         if edge.concept not in ("thing.all", "thing.the_many", "thing.bare_many"):
             continue
@@ -314,6 +333,7 @@ def _stays(lattice: Lattice, at: int, kind: str | None) -> Iterator[tuple[int, d
                 yield edge.end, {"kind": value.of, "count": value.count}
         for end, things, definite in list(_things_at(lattice, start)):
             thing = things[0]
-            fits = kind in (None, EVERYTHING, thing.kind)
+            named = kind == EVERYTHING and thing.where is not None and "id" in thing.where
+            fits = kind in (None, thing.kind) or named
             if len(things) == 1 and definite and fits and thing.count == 1 and thing.where is not None:
                 yield end, {"kind": thing.kind if kind is None else kind, "except": thing.where}

@@ -144,7 +144,7 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
 
 
 def _keep_whole(lattice: Lattice, outer: Edge) -> None:
-    """Let no word of a reference mean anything by itself: in "the first one" is no "one" of something else."""
+    """Let no word of a reference mean anything by itself: the "one" of "the first one" is no amount."""
     for at in range(outer.start, outer.end):
         lattice.edges[at] = [
             edge

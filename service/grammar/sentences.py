@@ -147,9 +147,11 @@ class Sentences:
             case Style():
                 return self._word("style", action.style)
             case SetMode():
-                return self._word("mode", action.mode)
+                mode = self._word("mode", action.mode)
+                return mode if action.ego is None else self._say("mode_ego", mode=mode, ego=action.ego)
             case Drive():
-                return self._say("drive", move=self._word("moves", action.move))
+                key = "drive" if action.ego is None else "drive_ego"
+                return self._say(key, move=self._word("moves", action.move), ego=action.ego)
             case Step() | Rewind():
                 key = action.do if action.ticks != 1 else f"{action.do}_one"
                 return self._say(key, count=action.ticks)
@@ -223,7 +225,7 @@ class Sentences:
             return ""
         if to == Where() or to.id is not None or to.nearest or to.each:
             raise Unsayable("no place to put things")
-        return self._where(to, "goal")
+        return self._where(to, "to_place")
 
     def _goal(self, goal: Goal) -> str:
         if goal.planners is not None:
@@ -421,7 +423,7 @@ class Sentences:
 
     def _say(self, key: str, **parts: Any) -> str:
         if key not in self._words:
-            raise Unsayable(f"no sentence for {key}")
+            raise Unsayable(f"no sentence for {key!r}")
         return str(self._words[key]).format(**parts)
 
 

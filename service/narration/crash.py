@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from service.contract.encode.explanation import crash_json
 from service.narration.answerer import Json, not_so, plain
-from service.narration.explanation import called
 from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.options import Options
+from service.narration.proofs import called
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
@@ -130,14 +130,37 @@ class Crashes:
             return self._say("chance")
         saving = crash.saving
         if saving is None:
-            if crash.whole:
-                return self._say("never")
-            return self._say("not_since", ticks=crash.looked_back) if crash.looked_back > 1 else ""
+            return " ".join(part for part in (self._no_way(crash), self._avoiding(crash)) if part)
         doing = self._sayings.move(saving.instead, "doing")
+        seconds = self._seconds(saving.ticks, crash)
         if saving.tick == crash.explanation.decision.tick:
-            return self._say("saved_last", doing=doing, ticks=saving.ticks)
+            return self._say("saved_last", doing=doing, seconds=seconds)
         did = self._sayings.move(saving.made, "did")
-        return self._say("saved", tick=saving.tick, did=did, doing=doing, ticks=saving.ticks)
+        return self._say("saved", tick=saving.tick, did=did, doing=doing, seconds=seconds)
+
+    def _no_way(self, crash: Crash) -> str:
+        """That no way led to the goal, as far back as it is known."""
+        if crash.whole:
+            return self._say("never")
+        return (
+            self._say("not_since", seconds=self._seconds(crash.looked_back, crash))
+            if crash.looked_back > 1
+            else ""
+        )
+
+    def _avoiding(self, crash: Crash) -> str:
+        """Whether the crash could have been avoided all the same, and how."""
+        last, decision = crash.avoidable.last, crash.explanation.decision
+        if last is None:
+            return self._say("unavoidable" if crash.avoidable.proved else "avoidable_unknown")
+        when = "now" if last.tick == decision.tick else "before"
+        key = "stays" if last.stays else "moves"
+        doing = self._sayings.move(last.instead, "doing")
+        did = self._sayings.move(last.made, "did")
+        return self._say("avoidable", key, when, tick=last.tick, did=did, doing=doing)
+
+    def _seconds(self, ticks: int, crash: Crash) -> str:
+        return self._sayings.number(ticks * crash.explanation.moment.config.step_seconds)
 
     def _not_so(self, error: QuestionError) -> str:
         if error.code not in _ITS_OWN:

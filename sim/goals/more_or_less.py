@@ -31,8 +31,8 @@ HARDER_BY: Final[dict[Degree | None, float]] = {"little": 0.05, None: 0.12, "lot
 EASIER_BY: Final[dict[Degree | None, float]] = {"little": 0.1, None: 0.25, "lot": 0.5}
 """The share of the room taken by things that an easier road has again at least."""
 
-MOST_THINGS: Final[dict[Degree | None, int]] = {"little": 8, None: 14, "lot": 28}
-"""Largest number of things that are added or removed."""
+CELLS_A_THING: Final[dict[Degree | None, int]] = {"little": 15, None: 8, "lot": 5}
+"""One thing is added or removed at most for every so many cells of the road."""
 
 DRAWS: Final = 10
 """Changes that are tried for each thing."""
@@ -69,7 +69,7 @@ def find_harder(state: SimState, degree: Degree | None, budget: Budget) -> Findi
     def distance(level: Difficulty) -> float | None:
         return level.room - wanted if level.ticks >= before.ticks else None
 
-    return _search("harder", state, before, _placing, distance, MOST_THINGS[degree], budget)
+    return _search("harder", state, before, _placing, distance, _most_things(state, degree), budget)
 
 
 def find_easier(state: SimState, degree: Degree | None, budget: Budget) -> Finding | None:
@@ -86,7 +86,7 @@ def find_easier(state: SimState, degree: Degree | None, budget: Budget) -> Findi
     def distance(level: Difficulty) -> float | None:
         return wanted - level.room if level.ticks <= before.ticks else None
 
-    return _search("easier", state, before, _removing, distance, MOST_THINGS[degree], budget)
+    return _search("easier", state, before, _removing, distance, _most_things(state, degree), budget)
 
 
 def _search(
@@ -110,6 +110,12 @@ def _search(
             actions = tuple(each.action for each in found)
             return Finding(goal, actions, last.state, last.level, before, after, drives)
     return None
+
+
+def _most_things(state: SimState, degree: Degree | None) -> int:
+    """The largest number of things that are added or removed."""
+    road = state.world.road
+    return road.columns * road.rows // CELLS_A_THING[degree]
 
 
 def _agrees(goal: GoalName, was: Drive, now: Drive) -> bool:

@@ -45,7 +45,9 @@ CODE = re.compile(
     r"|\b(?:vehicle|pothole|barrier|pedestrian)-\d"
 )
 """Names that only the code has; "the rules" and "no traffic" are words."""
-ALLOWED = re.compile(r"\bthe (?:priority )?rules\b|priority rules of the source|there were none", re.IGNORECASE)
+ALLOWED = re.compile(
+    r"\bthe (?:priority )?rules\b|priority rules of the source|there were none", re.IGNORECASE
+)
 KINDS = [kind for kind in PLACEABLE if kind != "av"]
 
 

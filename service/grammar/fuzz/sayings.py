@@ -11,9 +11,14 @@ from service.actions.table import traits_of
 from service.grammar.corpus import sentences
 from service.grammar.data import TEST_SUFFIX
 from service.grammar.engine import Language
+from service.grammar.fragments import INTERJECTION
 from service.grammar.parse_types import Understood
+from service.grammar.span_patterns import REPAIR
 from service.resources import prompts_folder
 from service.yaml_files import read_yaml
+
+_VERBS = ("v.", "want", "there_be", "q.")
+"""Beginnings of the concepts of words that say what is to be done or known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +29,8 @@ class Saying:
     actions: tuple[dict[str, Any], ...]
     is_question: bool
     """whether it only asks"""
+    has_verb: bool = True
+    """whether a word in it says what is to be done; "two cars" leans on what was said before"""
 
 
 class Sayings:
@@ -40,15 +47,15 @@ class Sayings:
         read = (self.read(text) for text in texts)
         return tuple(saying for saying in read if saying is not None)
 
-    @property
-    def questions(self) -> tuple[Saying, ...]:
-        """Those that only ask."""
-        return tuple(saying for saying in self.all if saying.is_question)
-
-    @property
-    def requests(self) -> tuple[Saying, ...]:
-        """Those that do something."""
-        return tuple(saying for saying in self.all if not saying.is_question)
+    @cached_property
+    def joinable(self) -> tuple[Saying, ...]:
+        """Those that say nothing about the sentence beside them: no corrections, no calls ("autopilot, …")."""
+        aside = (REPAIR, INTERJECTION)
+        return tuple(
+            saying
+            for saying in self.all
+            if not any(each.startswith(aside) for each in self._language.concepts(saying.text))
+        )
 
     def read(self, text: str) -> Saying | None:
         """A sentence and what it means; None where it is not understood as it stands."""
@@ -56,7 +63,8 @@ class Sayings:
         if not isinstance(parsed, Understood) or parsed.corrections:
             return None
         asks = all(traits_of(action).is_question for action in parsed.actions)
-        return Saying(text, tuple(dump(parsed.actions)), asks)
+        verb = any(each.startswith(_VERBS) for each in self._language.concepts(text))
+        return Saying(text, tuple(dump(parsed.actions)), asks, verb)
 
     def _of_frames(self) -> list[str]:
         return [say for frame in self._language.data.frames for say in frame.says]

@@ -1,0 +1,114 @@
+"""Joins two sentences that are understood alone, and compares the whole with its parts.
+
+A verdict is found from the actions alone, without a look at how they were read. What the grammar declares is
+told apart from what is lost: an amount without a verb leans on the clause before, a scenario takes in its
+parts, and a condition or a taught phrase goes on to the end.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from typing import Any, Literal
+
+from service.actions import dump
+from service.grammar.composition import done_by
+from service.grammar.engine import Language
+from service.grammar.fuzz.sayings import Saying
+from service.grammar.parse_types import Ambiguous, Parse, Understood
+
+Verdict = Literal["same", "declared", "asked", "refused", "lost", "changed"]
+VERDICTS: tuple[Verdict, ...] = ("same", "declared", "asked", "refused", "lost", "changed")
+WRONG: frozenset[Verdict] = frozenset(("lost", "changed"))
+"""The verdicts of an act that is none, or another, than what was said."""
+
+Joined = tuple[Saying, Saying, str]
+"""Two sentences and the whole."""
+
+Actions = Sequence[Mapping[str, Any]]
+
+
+def all_pairs(
+    first: Sequence[Saying], second: Sequence[Saying], joiners: Sequence[str], most: int, seed: int
+) -> Iterator[Joined]:
+    """Each of one list with each of another, in both orders, with each joiner; a sample where they are more."""
+    every = 2 * len(first) * len(second) * len(joiners)
+    if every <= most:
+        for one, other, joiner in product(first, second, joiners):
+            yield joined(one, other, joiner)
+            yield joined(other, one, joiner)
+        return
+    chance = random.Random(seed)
+    for at in chance.sample(range(every), most):
+        rest, turned = divmod(at, 2)
+        rest, joiner = divmod(rest, len(joiners))
+        a, b = divmod(rest, len(second))
+        one, other = (second[b], first[a]) if turned else (first[a], second[b])
+        yield joined(one, other, joiners[joiner])
+
+
+def random_pairs(said: Sequence[Saying], joiners: Sequence[str], count: int, seed: int) -> Iterator[Joined]:
+    """Pairs of any two."""
+    chance = random.Random(seed)
+    for _ in range(count):
+        yield joined(chance.choice(said), chance.choice(said), chance.choice(joiners))
+
+
+def joined(one: Saying, other: Saying, joiner: str) -> Joined:
+    """Two sentences as one."""
+    return one, other, one.text.rstrip(" .!?") + joiner + other.text
+
+
+def verdict(language: Language, pair: Joined) -> Verdict:
+    """What became of the parts."""
+    one, other, text = pair
+    return judge(one, other, language.parse(text))
+
+
+def judge(one: Saying, other: Saying, parsed: Parse) -> Verdict:
+    """What became of the parts of a sentence that was read."""
+    if not isinstance(parsed, Understood):
+        return "asked" if isinstance(parsed, Ambiguous) else "refused"
+    got = dump(parsed.actions)
+    wanted = [*one.actions, *other.actions]
+    if got == wanted or got == _without_emphasis(one.actions, other.actions):
+        return "same"
+    if _leans(one, other, got) or _takes_in(wanted, got) or _goes_on(one, other, got):
+        return "declared"
+    return "lost" if len(got) < len(wanted) else "changed"
+
+
+def _without_emphasis(one: Actions, other: Actions) -> list[Mapping[str, Any]]:
+    """The actions of both where the second begins as the first ends: "stop, pause"."""
+    return [*one, *other[1:]] if one[-1] == other[0] else [*one, *other]
+
+
+def _leans(one: Saying, other: Saying, got: Actions) -> bool:
+    """Whether what has no verb got that of the first: "remove a cone and two cars"."""
+    if other.has_verb or list(got[: len(one.actions)]) != list(one.actions):
+        return False
+    rest = got[len(one.actions) :]
+    verbs = {action["do"] for action in one.actions}
+    return len(rest) == len(other.actions) and all(
+        said["do"] in verbs and _about(said) == _about(own)
+        for said, own in zip(rest, other.actions, strict=True)
+    )
+
+
+def _about(action: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in action.items() if key != "do"}
+
+
+def _takes_in(wanted: Actions, got: Actions) -> bool:
+    """Whether a scenario or an evaluation took in what belongs to it."""
+    return len(got) < len(wanted) and done_by(wanted, got)
+
+
+def _goes_on(one: Saying, other: Saying, got: Actions) -> bool:
+    """Whether the second part is in the condition, or the taught phrase, that the first ends with."""
+    *before, last = one.actions
+    inner = next((key for key in ("change", "meaning") if key in last), None)
+    if inner is None or list(got[:-1]) != before:
+        return False
+    return got[-1] == {**last, inner: [*last[inner], *other.actions]}
