@@ -84,6 +84,13 @@ class Unsayable(ValueError):  # noqa: N818 - says what the actions are, not what
     """Actions that no sentence of the language means."""
 
 
+class _Sayable(dict[str, Any]):
+    """Words by their key; one that is not there cannot be said."""
+
+    def __missing__(self, key: str) -> Any:
+        raise Unsayable(f"no words for {key}")
+
+
 class Sentences:
     """Sentences in one language."""
 
@@ -279,7 +286,7 @@ class Sentences:
             return ""
         if any(getattr(where, a) is not None and getattr(where, b) is not None for a, b in _EXCLUSIVE):
             raise Unsayable("parts of the place contradict each other")
-        words = {**self._words["where"], **self._words.get(section, {})}
+        words = _Sayable({**self._words["where"], **self._words.get(section, {})})
         said = self._absolute(where, words)
         if where.distance_m is not None:
             key = "distance_side" if where.side else "distance"
