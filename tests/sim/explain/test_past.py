@@ -42,7 +42,8 @@ def sampled_gap(one: Path, other: Path) -> float:
     for step in range(SAMPLES + 1):
         share = step / SAMPLES
         apart = [
-            other.start[axis] - one.start[axis]
+            other.start[axis]
+            - one.start[axis]
             + share * (other.end[axis] - other.start[axis] - one.end[axis] + one.start[axis])
             for axis in (0, 1)
         ]
