@@ -85,6 +85,13 @@ class Unsayable(ValueError):  # noqa: N818 - says what the actions are, not what
     """Actions that no sentence of the language means."""
 
 
+class _Sayable(dict[str, Any]):
+    """Words by their key; one that is not there cannot be said."""
+
+    def __missing__(self, key: str) -> Any:
+        raise Unsayable(f"no words for {key}")
+
+
 class Sentences:
     """Sentences in one language."""
 
@@ -262,7 +269,8 @@ class Sentences:
         if count == "all":
             return self._say("remove_all", things=self._entry("things", kind)[1], where=self._where(where))
         if count == 1 and where == Where(nearest=True):
-            return self._say("remove_nearest", thing=self._entry("things", kind)[0])
+            named = self._entry("things", kind)
+            return self._say("remove_nearest", thing=named[0], nearest=named[-1])
         if count == 1 and where is not None and where.id is not None and where == Where(id=where.id):
             if where.id.rpartition("-")[0] != kind:
                 raise Unsayable(f"{where.id} is no {kind}")
@@ -287,7 +295,7 @@ class Sentences:
             return ""
         if any(getattr(where, a) is not None and getattr(where, b) is not None for a, b in _EXCLUSIVE):
             raise Unsayable("parts of the place contradict each other")
-        words = {**self._words["where"], **self._words.get(section, {})}
+        words = _Sayable({**self._words["where"], **self._words.get(section, {})})
         said = self._absolute(where, words)
         if where.distance_m is not None:
             key = "distance_side" if where.side else "distance"
@@ -318,7 +326,7 @@ class Sentences:
         said = ""
         if where.lane is not None:
             key = "lane_number" if isinstance(where.lane, int) else "lane"
-            said += words[key].format(lane=where.lane)
+            said += words[key].format(lane=self._words.get("lanes", {}).get(where.lane, where.lane))
         if where.lanes is not None:
             said += words["lanes"].format(first=where.lanes[0], last=where.lanes[1])
         if where.each is not None:
@@ -342,7 +350,7 @@ class Sentences:
             told = number(value)
         elif parameter == "traffic":
             self._value(parameter, value)
-            told = value
+            told = self._words.get("traffic_levels", {}).get(value, value)
         else:
             told = self._value(parameter, value)
         return self._say("set", parameter=self._word("parameters", parameter), value=told)
