@@ -146,9 +146,16 @@ class Divider:
 
     def _or_apart(self, clause: Clause, parts: Sequence[Fragment], context: Context) -> Clause:
         """A listing, with what its parts are as clauses of their own; without, where they are none."""
-        apart = self._requests(parts, range(1, len(parts)), context)
-        apart = apart and [one for each in apart for one in each.instead or (each,)]
-        if apart is None or _same(apart, clause) or not _optional(clause, apart):
+        own = [self._composition.alone(part) for part in parts]
+        apart = [
+            Clause(part.start, part.end, *found, after=part.after)
+            for part, found in zip(parts, own, strict=True)
+            if found is not None
+        ]
+        if len(apart) < len(parts):
+            found = self._requests(parts, range(1, len(parts)), context)
+            apart = [one for each in found or () for one in each.instead or (each,)]
+        if not apart or _same(apart, clause) or not _optional(clause, apart):
             return clause
         return replace(clause, instead=tuple(apart))
 

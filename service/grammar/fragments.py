@@ -13,6 +13,7 @@ from service.grammar.paths import SEPARATOR
 
 PAUSE = "pause"
 STOP = "stop"
+THEN = "then"
 OR = "or"
 EXCEPT = "except"
 """After this comes where something shall not be: "anywhere but the left lane"."""
@@ -54,6 +55,8 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             if stop > end or concept == INTERJECTION:
                 continue
             if concept != SEPARATOR:
+                if concept == GLUE and at > begin and _passes_on(lattice, at, stop, end):
+                    continue
                 reach = max(reach, stop)
             elif separator is None or stop > separator.end:
                 separator = edge
@@ -70,6 +73,14 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
     if _says_something(lattice, begin, end) or (after == OR and begin < end and found):
         found.append(Fragment(after, begin, end))  # "five or so": how many was meant is not known
     return found
+
+
+def _passes_on(lattice: Lattice, start: int, stop: int, end: int) -> bool:
+    """Whether a filler may be cut at its last word: "take that back then turn left", but not "now then, …"."""
+    return _says_something(lattice, stop, end, marks=True) and any(
+        edge.concept == SEPARATOR and edge.sense.value == THEN and edge.end == stop
+        for edge in lattice.between(start + 1, stop)
+    )
 
 
 def _past_interjection(lattice: Lattice, start: int, end: int) -> int:

@@ -86,6 +86,16 @@ class Repair:
         return None
 
     @property
+    def start(self) -> int:
+        """The token at which the words that take back begin."""
+        return self._edge.start
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether they do nothing else."""
+        return self._value == ALWAYS
+
+    @property
     def phrase(self) -> str:
         """What takes back, and what was said instead."""
         return self._written(self._edge.start, self._tail).strip(" ,;.")

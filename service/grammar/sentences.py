@@ -16,6 +16,7 @@ from service.actions import (
     Action,
     Advise,
     Ask,
+    Chat,
     Evaluate,
     FindWorst,
     Forget,
@@ -107,6 +108,8 @@ class Sentences:
         """One sentence for all of them, in order. Raises `Unsayable`."""
         if not actions or not self._words:
             raise Unsayable("nothing is said by no sentence, and a language may have none")
+        if len({isinstance(action, Chat) for action in actions}) > 1:
+            raise Unsayable("small talk beside a request says nothing")
         whole = ""
         before: Action | None = None
         for action in actions:
@@ -159,6 +162,12 @@ class Sentences:
             case Drive():
                 key = "drive" if action.ego is None else "drive_ego"
                 return self._say(key, move=self._word("moves", action.move), ego=action.ego)
+            case Rewind(to=str(moment)):
+                return self._word("rewind_to", moment)
+            case Rewind(to=int(tick)):
+                return self._say("rewind_to_tick", tick=tick)
+            case Chat():
+                return self._word("chat", action.kind)
             case Step() | Rewind():
                 key = action.do if action.ticks != 1 else f"{action.do}_one"
                 return self._say(key, count=action.ticks)
@@ -373,6 +382,14 @@ class Sentences:
                 return self._say("scene_kind", things=self._entry("things", ask.kind)[1])
             case "metrics" if ask.metric is not None:
                 return self._word("metric", ask.metric)
+            case "setting":
+                return self._setting_asked(ask)
+            case "options" if ask.parameter is not None:
+                return self._word("options_of", ask.parameter)
+            case "term":
+                return self._say("term", term=self._word("terms", ask.term))
+            case "history":
+                return self._history(ask)
             case "changes" if ask.count is not None or ask.tick is not None:
                 if ask.count is not None and ask.tick is not None:
                     raise Unsayable("changes are counted, or those since a tick")
@@ -380,6 +397,26 @@ class Sentences:
                 return self._say(key, count=ask.count, tick=ask.tick)
             case about:
                 return self._say(about)
+
+    def _setting_asked(self, ask: Ask) -> str:
+        name = str(ask.parameter)
+        if ask.value is None:
+            return self._word("setting_asked", name)
+        named = name in self._words["values"]
+        if named is not isinstance(ask.value, str):
+            raise Unsayable(f"{ask.value!r} is no value of {name}")
+        if isinstance(ask.value, str):
+            value = self._value(name, ask.value)
+            return self._word("setting_is", name).format(value=value)
+        return self._say(
+            "setting_is_number", parameter=self._word("parameters", name), value=number(ask.value)
+        )
+
+    def _history(self, ask: Ask) -> str:
+        key = str(ask.what)
+        if ask.ticks is not None:
+            key += "_ticks" if ask.ticks != 1 else "_tick"
+        return self._word("history", key).format(tick=ask.tick, until=ask.until, ticks=ask.ticks)
 
     def _evaluate(self, action: Evaluate) -> str:
         planners = [self._value("planner", planner) for planner in action.planners or ()]

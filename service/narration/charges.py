@@ -1,4 +1,4 @@
-"""Figures as people can take them: charges as seconds of driving that cost as much, ticks as seconds, chances."""
+"""Figures as people can take them: charges and ticks as seconds of driving, chances as shares."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ LEAST_S = 0.1
 
 
 def seconds_worth(sayings: Sayings, cost: float, measure: Measure, config: Config) -> str:
-    """A difference of costs in seconds: of ticks as they are, of charges by what a tick of driving is charged."""
+    """A difference of costs in seconds: ticks as they are, charges by what a tick of driving is charged."""
     ticks = cost / weights(config).tick if measure is Measure.COST else cost
     return in_seconds(sayings, ticks, config)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from service.contract.encode.explanation import crash_json
+from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.inflection import capital
 from service.narration.naming import Naming
@@ -42,19 +43,25 @@ class Crashes:
             told |= crash_json(crash, texts)
         return told | {"question": self._say("question" if tick is None else "question_at", tick=tick)}
 
-    def text(self, crash: Crash) -> str:
-        """A crash in a few sentences."""
+    def text(self, crash: Crash, *, detailed: bool = False) -> str:
+        """A crash in a few sentences; `detailed` leaves nothing out for the sake of brevity."""
         decision = crash.explanation.decision
         naming = Naming(self._sayings, crash.explanation.moment, as_seen=False)
-        parts = [
-            self._happened(crash, decision, naming),
-            *self._not_as_seen(crash, naming),
-            self._by_whom(decision),
-            self._otherwise(crash, decision, naming),
-            self._flips(crash, naming),
-            self._saving(crash),
-        ]
-        return " ".join(part for part in parts if part)
+        text = ""
+        for told in range(MOST_TOLD, 0, -1):
+            flips = self._flips(crash, naming, told)
+            parts = [
+                Part(0, self._happened(crash, decision, naming)),
+                *(Part(1, each) for each in self._not_as_seen(crash, naming)),
+                Part(1, self._by_whom(decision)),
+                Part(4, self._otherwise(crash, decision, naming)),
+                Part(3, flips),
+                Part(2, self._saving(crash)),
+            ]
+            text = within(parts, None if detailed else MOST_WORDS)
+            if flips in text:
+                break
+        return text
 
     def _happened(self, crash: Crash, decision: Decision, naming: Naming) -> str:
         cause = crash.cause
@@ -106,21 +113,27 @@ class Crashes:
             return capital(self._say("free", "one" if len(free) == 1 else "many", places=places))
         return self._say("all_met", reasons=self._sayings.all_met(others, "then", naming))
 
-    def _flips(self, crash: Crash, naming: Naming) -> str:
-        """How it goes without what it hung on."""
+    def _flips(self, crash: Crash, naming: Naming, most: int) -> str:
+        """How it goes without what it hung on, told one by one up to so many."""
         flips = crash.explanation.counterfactuals
         if not flips:
             return ""
+        if most == 1:
+            who = [called(name, self._sayings, naming) for name in flips[0].removed]
+            told_one = self._say("flip", who=self._sayings.joined(who))
+            more = len(flips) - 1
+            and_more = self._say("flip_more", "one" if more == 1 else "many", count=more) if more else ""
+            return " ".join(part for part in (told_one, and_more) if part)
         told = [
             self._say(
                 "without",
                 who=self._sayings.joined([called(name, self._sayings, naming) for name in flip.removed]),
                 do=self._sayings.move(flip.move, "do"),
             )
-            for flip in flips[:MOST_TOLD]
+            for flip in flips[:most]
         ]
-        if len(flips) > MOST_TOLD:
-            more = len(flips) - MOST_TOLD
+        if len(flips) > most:
+            more = len(flips) - most
             told.append(self._say("and_more", "one" if more == 1 else "many", count=more))
         alone = all(len(flip.removed) == 1 for flip in flips)
         return self._say("run_again" if alone else "run_again_all", flips=self._sayings.listed(told))

@@ -43,7 +43,7 @@ class Proofs:
         told = dict.fromkeys(self._stand_in(cause, moves[cause.group]) for cause in others)
         room = max(1, MOST_TOLD - len(alone))
         parts += [Part(3 + at, text) for at, text in enumerate(list(told)[:room])]
-        return [*parts, Part(9, self._untried())] if self._detailed else parts
+        return [*parts, Part(9, self._untried())]
 
     def _alone(self, alone: list[Cause], moves: dict[tuple[str, ...], Move], *, sole: bool) -> str:
         """What each flips the move by itself: up to three, and how many more."""
@@ -84,8 +84,7 @@ class Proofs:
         return " ".join(told[:1])
 
     def _untried(self) -> str:
-        untried = self._explanation.untried
-        return self._say("untried", "one" if untried == 1 else "many", count=untried) if untried else ""
+        return self._say("untried") if self._explanation.untried else ""
 
     def of_change(self) -> list[Part]:
         """The smallest change that leads to the foil; or that there is none, as far as was looked."""

@@ -49,7 +49,7 @@ class Alternatives:
     dead_end: bool
     """whether after the foil no way leads on, and after the move made one does"""
     would_chances: Chances | None = None
-    """the chances after the foil, where how others react is left to chance: `would` is then one future of many"""
+    """the chances after the foil, where it is left to chance how others react; `would` is one future then"""
     real_chances: Chances | None = None
     """the same after the move that was made"""
 

@@ -1,8 +1,8 @@
 """Whether a crash could have been avoided, wherever the goal is: by keeping clear to the end of the episode.
 
-Looked for backwards along the way that was driven. Where nobody brakes or gives way, the cells that keep clear
-are exact (`sim.search.reachability`), so that "nothing could have avoided it" is proved. Where others brake, a
-way found without their braking holds all the same, and staying is driven through as the rules have it.
+Looked for backwards along the way that was driven. Where nobody brakes or gives way, the cells that keep
+clear are exact (`sim.search.reachability`), so that "nothing could have avoided it" is proved. Where others
+brake, a way found without their braking holds all the same, and staying is driven through by the rules.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ UNKNOWN: Final = Avoidable(None, proved=False)
 def find_avoidance(driven: Iterable[tuple[SimState, Decision]], *, whole: bool) -> Avoidable:
     """The last move instead of which another would have avoided the crash.
 
-    `driven`: the states of one ego alone on its road, with its decisions, the last first. `whole`: whether they
-    begin with the episode, so that nothing more could be found before them.
+    `driven`: the states of one ego alone on its road, with its decisions, the last first. `whole`: whether
+    they begin with the episode, so that nothing more could be found before them.
     """
     exact = True
     for back, (state, decision) in enumerate(driven):

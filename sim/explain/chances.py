@@ -1,6 +1,7 @@
 """How likely each end is after a move or a change, where it is left to chance how others react.
 
-From the same futures as confidence (`sim.explain.futures`), with a part of their work, since two sides are compared.
+From the same futures as confidence (`sim.explain.futures`), with a part of their work, since two sides are
+compared.
 """
 
 from __future__ import annotations

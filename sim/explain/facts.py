@@ -62,7 +62,7 @@ class Cause:
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """Something that stood in the way of a move because of another thing: without that it is gone from there."""
+    """Something that stood in the way of a move because of another thing; without that it is not there."""
 
     blocker: str
     by: str
@@ -124,8 +124,8 @@ class Explanation:
     reruns: int
     """how often the decision was run again for this answer"""
     also: tuple[Cause, ...] = ()
-    """of `why`: causes beside `causes` that flip the decision by themselves, or that stand where it is said, with
-    their groups"""
+    """of `why`: causes beside `causes`, with their groups: they flip the decision by themselves, or are told
+    to be in the way"""
     chain: tuple[Link, ...] = ()
     """of `why`: what stood in the way because of something else"""
     untried: int = 0

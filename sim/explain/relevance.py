@@ -10,11 +10,12 @@ from typing import Final
 from sim.explain.factors import is_factor
 from sim.perceive import Percept
 from sim.plan.protocol import Traits
+from sim.search.passages import locked_in
 
-TRIED_QUICK: Final = 80
+TRIED_QUICK: Final = 120
 """Things that are tried one by one where a decision takes a few hundredths of a millisecond."""
-TRIED_SEARCHING: Final = 6
-"""The same where a decision searches to the goal."""
+TRIED_SEARCHING: Final = 2
+"""The same where a decision searches to the goal; further ones are tried in groups."""
 
 
 def having_part(percept: Percept, traits: Traits, names: list[str]) -> list[str]:
@@ -24,6 +25,10 @@ def having_part(percept: Percept, traits: Traits, names: list[str]) -> list[str]
     columns = percept.road.columns
     own = percept.ego // columns
     read = {name for cell, name in percept.movers.items() if own - 1 <= cell // columns <= own}
+    if traits.by_passages:  # movers that are locked in count as what never moves
+        road, moving = percept.road, percept.right | percept.left
+        locked = locked_in(moving, percept.boards.fixed, road.left_edge, road.right_edge)
+        read |= {name for cell, name in percept.movers.items() if locked >> cell & 1}
     first = own - 1 if traits.near else 0
     read |= {name for cell, name in percept.hazards.items() if first <= cell // columns <= own}
     return [name for name in names if name in read or is_factor(name)]

@@ -125,7 +125,7 @@ class ChangeSearch:
         return SmallestChange(None, searched, self.tried)
 
     def _single_edits(self, names: list[str]) -> Iterator[Edit]:
-        """What stands in the move's way first, then the cells before it in the order, wishes, all other things."""
+        """What is in the move's way first, then the cells that come before it, wishes, all other things."""
         rerun, decision = self._rerun, self._rerun.decision
         option = decision.option(self._foil)
         first = [name for name in names if name in option.causes]

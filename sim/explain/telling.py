@@ -1,8 +1,8 @@
 """Which of the things in the way to name in a line about a decision: one that matters to the move.
 
-What stands in the way of the first choice need not matter: behind it there may be something else that would be in
-the way as well. So the decision is taken again without it. A few runs at most, since a line is told at every
-tick.
+What stands in the way of the first choice need not matter: behind it there may be something else that would
+be in the way as well. So the decision is taken again without it. A few runs at most, since a line is told at
+every tick.
 """
 
 from __future__ import annotations

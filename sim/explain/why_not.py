@@ -2,9 +2,9 @@
 
 A change takes away what was seen, blocks cells beside the vehicle (with a barrier, or where a mover is just
 leaving the cell, with a pothole that holds it), or says another wish. Small changes are tried first
-(`smallest_change`). Where they run out, larger ones are built: what stands in the move's way is taken away, and
-the free moves that come before it are blocked. A change is only stated if the decision, run again with it, is
-the move asked about.
+(`smallest_change`). Where they run out, larger ones are built: what stands in the move's way is taken away,
+and the free moves that come before it are blocked. A change is only stated if the decision, run again with
+it, is the move asked about.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ def _walls(rerun: Intervention, cleared: Sequence[str], foil: Move) -> list[Add]
 
 
 def _walled_in(rerun: Intervention, search: ChangeSearch, away: Edits, foil: Move) -> Edits:
-    """What blocks the moves that are made one after the other, until it is the foil or none can be blocked."""
+    """What blocks the moves made one after the other, until it is the foil or none can be blocked."""
     walls: Edits = ()
     world = rerun.state.world.without(frozenset(edit.gone for edit in away))
     for _ in Move:

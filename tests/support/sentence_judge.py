@@ -1,4 +1,4 @@
-"""Whether the sentences of explanations are so: by changing the road and letting it run, and by the slow twin.
+"""Whether the sentences of explanations are so: by changing the road and letting it run, and by the twin.
 
 Nothing of `sim.explain` is asked. A change of the road is made by the actions of a person, and the decision
 is the one the run takes then. Each judge yields the kind of sentence that it looked at, and what is false
@@ -19,6 +19,7 @@ from sim.actions import Add, Prefer, Remove, WorldAction
 from sim.decide import decide
 from sim.explain import Explanation
 from sim.explain.crash import Crash
+from sim.explain.intervention import wall
 from sim.plan import Decision, Measure
 from sim.session.edits import apply
 from sim.session.errors import EditError
@@ -165,8 +166,6 @@ def changes_reaching(state: SimState, foil: Move, size: int) -> Iterator[tuple[W
     ]
     made = decide(state)
     assert made is not None
-    from sim.explain.intervention import wall  # only where a wall of which kind can stand
-
     cells = [
         option.cell for option in made.options if option.cell is not None and option.move is not Move.STAY
     ]
@@ -182,7 +181,7 @@ def changes_reaching(state: SimState, foil: Move, size: int) -> Iterator[tuple[W
 
 
 def judge_left_out(explanation: Explanation, text: str, named: Collection[str]) -> Judged:
-    """Whatever flips the move by itself is among the causes, and what is said to block is, or is told to be held.
+    """Whatever flips the move by itself is among the causes, and what is said to block is, or was held there.
 
     `named`: what the sentence says was in the way.
     """
@@ -194,7 +193,8 @@ def judge_left_out(explanation: Explanation, text: str, named: Collection[str]) 
     out = [name for name in names_of(state) if name not in told and flips(state, [name], fact)]
     untried = getattr(explanation, "untried", 0)
     kind = "4 single cause not tried" if untried else "4 single cause left out"
-    yield kind, f"{out}: {text}" if out else None
+    said = untried and "Not everything" in text
+    yield kind, f"{out}: {text}" if out and not said else None
     if named and fact is not Move.FORWARD:
         members = {name for cause in explanation.causes for name in cause.group} | told
         chained = {link.blocker for link in getattr(explanation, "chain", ())}
@@ -203,6 +203,7 @@ def judge_left_out(explanation: Explanation, text: str, named: Collection[str]) 
 
 def judge_chance(state: SimState, text: str, *, ends_differ: bool) -> Judged:
     """Where it hangs on chance how it ends, no one future is told as the one. `ends_differ`: as was drawn."""
+    text = re.sub(r"It would have been a crash with", "", text)  # at once, by what is seen
     told = re.search(r"\b(arrive|arrived|crashed|crash with|got stuck|get stuck)\b", text)
     if not state.config.certain and told and ends_differ:
         stated = re.search(r"%|in every|in each|of \d+ futures|no way leads", text)

@@ -32,7 +32,7 @@ def can_avoid(now: Position, ticks: int) -> bool:
 
 
 def clear_after(now: Position, cell: Cell, ticks: int, *, stays: bool) -> bool:
-    """Whether a step into a cell meets nothing, and some way on from there; `stays`: staying there for good."""
+    """Whether a step into a cell meets nothing, and some way on from there; `stays`: for good."""
     later = moved_bodies(now)
     if cell not in _steps(now, later, now.av):
         return False
