@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, Final, Literal
@@ -18,7 +19,7 @@ from sim.config import Problem
 from sim.hazard_advice import NoAdviceError
 from sim.rules.versions import NewerRulesError
 from sim.session.errors import EditError
-from sim.types import KINDS, Kind
+from sim.types import KINDS, Kind, kind_of
 
 _NO_FAULTS: Final[Mapping[str, Any]] = MappingProxyType({})
 
@@ -82,7 +83,7 @@ class Refusals:
 
     def edit(self, error: EditError) -> str:
         """Why a change of the road is impossible, as a sentence."""
-        return self._say("edits", error.code, error.facts)
+        return self._say("edits", error.code, error.facts, spoken=True)
 
     def problem(self, problem: Problem) -> str:
         """The problem of a field, to follow its name; a whole sentence if it is unavailable."""
@@ -102,7 +103,7 @@ class Refusals:
 
     def session(self, code: str, /, **facts: object) -> str:
         """What a session cannot do, as a sentence."""
-        return self._say("session", code, facts)
+        return self._say("session", code, facts, spoken=True)
 
     def said(self, code: str, /, **facts: object) -> str:
         """What is wrong with something that was said or taught."""
@@ -124,17 +125,28 @@ class Refusals:
         """Why a playback speed is impossible, as a sentence."""
         return self._say("pace", code, facts)
 
-    def _say(self, section: str, code: str, facts: Mapping[str, Any]) -> str:
-        return str(self._data[section][code]).format(**self._slots(facts))
+    def _say(self, section: str, code: str, facts: Mapping[str, Any], *, spoken: bool = False) -> str:
+        return str(self._data[section][code]).format(**self._slots(facts, spoken=spoken))
 
-    def _slots(self, facts: Mapping[str, Any]) -> dict[str, Any]:
-        """The facts as they are said, and the forms that depend on them."""
-        slots: dict[str, Any] = {name: self._told(name, value) for name, value in facts.items()}
+    def _slots(self, facts: Mapping[str, Any], *, spoken: bool) -> dict[str, Any]:
+        """The facts as they are said, and the forms that depend on them.
+
+        `spoken`: where no field is named, so that nobody has to type the values.
+        """
+        words = self._data["spoken"] if spoken else _NO_FAULTS
+        slots: dict[str, Any] = {
+            name: words[value] if isinstance(value, str) and value in words else self._told(name, value)
+            for name, value in facts.items()
+        }
+        if "id" in facts:
+            with suppress(ValueError):  # an id as somebody typed it
+                slots["thing"] = self._nouns(kind_of(str(facts["id"])))
         if "kind" in facts:
             slots["things"] = slots["kind"]["one" if facts.get("count") == 1 else "many"]
         for name, form in self._data["forms"].items():
             if form["of"] in facts:
-                slots[name] = _form(form, facts[form["of"]]).format(**slots)
+                with suppress(KeyError):  # a form that takes other facts too, of another refusal
+                    slots[name] = _form(form, facts[form["of"]]).format(**slots)
         return slots
 
     def _told(self, name: str, value: object) -> object:

@@ -176,7 +176,8 @@ def check(narrator: Narrator, draw: random.Random, timeline: Timeline, figures: 
     if answer["same_road"]:
         check_difference(answer["first_difference"], real, changed, what, figures)
     if "would change nothing" not in answer["text"]:
-        ticks = rf"{len(changed.path)}( tick| ticks)?"
+        seconds = fork.state.config.step_seconds * len(changed.path)
+        ticks = rf"{re.escape(f'{seconds:g}')}( s)?"
         if not re.search(ENDS[changed.outcome].format(ticks=ticks), answer["text"]):
             figures.wrong.append(f"said otherwise, {changed}: {what}")
 

@@ -38,9 +38,10 @@ def say(
 ) -> None:
     """Say something to a session and print the reply. Exits with 1 when it is refused.
 
-    Where several things may be meant, they are listed; in a terminal one
-    of them can be chosen. Of several lines, those before the one that is
-    refused are done, and none after it.
+    Where several things may be meant, they are listed with numbers; the
+    next thing said may answer: "2", "the second one", "ten", or "never
+    mind". Of several lines, those before the one that is refused are done,
+    and none after it.
 
     Example: roadtalk say "add five potholes"
     """
@@ -75,15 +76,17 @@ def _said(session: Session, text: str, language: str | None, *, asking: bool) ->
     except NotUnderstood as refused:
         fail(_offering(refused.detail, refused.suggestions))
     except Ambiguous as unclear:
+        asked = _asking(unclear)
         if not unclear.choices or not asking or not sys.stdin.isatty():
-            fail(_offering(unclear.detail, [choice.text for choice in unclear.choices]))
-        typer.echo(plain(unclear.detail))
-        for number, choice in enumerate(unclear.choices, 1):
-            typer.echo(plain(f"  {number}  {choice.text}"))
-        number = 0
-        while not 1 <= number <= len(unclear.choices):
-            number = typer.prompt(f"Which one (1 to {len(unclear.choices)})", type=int)
-        return str(unclear.choose(number - 1).reply)
+            fail(asked)
+        typer.echo(asked)
+        return _said(session, typer.prompt("Which one"), language, asking=asking)
+
+
+def _asking(unclear: Ambiguous) -> str:
+    """A question with its choices, numbered."""
+    choices = [f"  {number}  {choice.text}" for number, choice in enumerate(unclear.choices, 1)]
+    return plain("\n".join([unclear.detail, *choices]))
 
 
 def _offering(detail: str, offers: tuple[str, ...] | list[str]) -> str:

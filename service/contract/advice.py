@@ -33,6 +33,8 @@ class AdviceOption(Model):
     """Speed at the hazard; 0: not reached."""
     harm_kmh: float
     """Mean speed at which harm is done; 0 counts where none is."""
+    death: Share
+    """Of a person on foot: mean published risk of death at the speed of impact; 0 for other hazards."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ from service.grammar.frames import Filled
 from service.grammar.lattice import Edge
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
-from sim.types import kind_of
+from sim.types import ego_id, is_ego, kind_of
 
 _ABSENT = object()
 _MEASURES = ("number", "length", "speed", "seconds", "fraction", "times", "cells")
@@ -102,11 +102,8 @@ class _Maker:
             return whole
         pointed = [edge for edge in self._filled.of("meant", "all_others") if len(edge.sense.value) > 1]
         if pointed:
-            each = [
-                edge._replace(sense=edge.sense._replace(value=(one,)))
-                for edge in pointed
-                for one in edge.sense.value
-            ]
+            things = [(edge, thing) for edge in pointed for thing in edge.sense.value]
+            each = [edge._replace(sense=edge.sense._replace(value=(thing,))) for edge, thing in things]
             return [self.action(template, turn) for turn in each]
         named = [name for edge in self._filled.slots for name in _ids(edge)]
         if not named:
@@ -163,14 +160,14 @@ class _Maker:
             case "asked_move":
                 return self._asked_move()
             case "steps_or_one":
-                steps = [
-                    edge.sense.value for edge in self._filled.of("steps") if edge.sense.value is not None
-                ]
-                return steps[0] if steps else 1
+                steps = [edge.sense.value for edge in self._filled.of("steps")]
+                return next((count for count in steps if count is not None), 1)
             case "first" | "second":
                 return self._one_of_two(name)
             case "becomes":
                 return self._becomes()
+            case "ego_named":
+                return self._ego()
             case "less":
                 return -self._slot(f"{attribute}.count", None)
             case "concept" if turn:
@@ -202,11 +199,20 @@ class _Maker:
         where = {} if thing.where is None else {"where": thing.where}
         return {"kind": thing.kind, **where}
 
+    def _ego(self) -> str:
+        """The id of the ego that is named, by its id or its number in order."""
+        (edge,) = self._filled.of("ego_named")
+        named = edge.sense.value
+        name = str(named["id"]) if "id" in named else ego_id(named["number"] - 1)
+        if not is_ego(name):
+            raise CannotBuild(f"{name} is no ego")
+        return name
+
     def _becomes(self) -> str:
         """The kind that things become; "a cone" is what one becomes, "cones" what many become."""
         things = [thing for edge in self._filled.of("meant") for thing in edge.sense.value]
         (edge,) = self._filled.of("becomes")
-        if edge.sense.value.many is (len(things) == 1 and things[0].count == 1):
+        if (len(things) != 1 or things[0].count != 1) not in edge.sense.value.many:
             raise CannotBuild("one becomes one, many become many")
         return str(edge.sense.value.kind)
 

@@ -249,8 +249,10 @@ class Divider:
         return None
 
     def _calls(self, part: Fragment) -> bool:
-        """Whether a part only calls for attention: "and then, please tell me, …"."""
-        return any(e.concept == INTERJECTION and e.end == part.end for e in self._lattice.edges[part.start])
+        """Whether a part only calls for attention: "and then, please tell me, …", but not "then right"."""
+        whole = [edge for edge in self._lattice.edges[part.start] if edge.end == part.end]
+        calls = any(edge.concept == INTERJECTION for edge in whole)
+        return calls and all(edge.sense.value is None for edge in whole)
 
     def _says_again(self, part: Fragment) -> bool:
         """Whether a part only says how many were meant: "a cone, just one" is not two."""

@@ -27,6 +27,9 @@ _AND = "and"
 _COUNTED = ("counted", ".exact", ".more", ".post")
 """Ends of the concepts of amounts that are a number."""
 
+_OF_THINGS = "thing."
+"""What the concepts of amounts of things begin with; "lane 2" is an amount of lanes."""
+
 _PLACES = frozenset(("place", "side", "length", "nearest"))
 
 
@@ -164,5 +167,5 @@ def _none_of(clauses: Sequence[Clause]) -> Contradiction | None:
 
 def _says_how_many(clause: Clause, lattice: Lattice) -> bool:
     """Whether it names an amount: it may be only that which is not meant ("three, not five")."""
-    said = [e for e in lattice.between(clause.start, clause.end) if isinstance(e.sense.value, Amount)]
+    said = [e for e in lattice.between(clause.start, clause.end) if e.concept.startswith(_OF_THINGS)]
     return not said or any(edge.concept.endswith(_COUNTED) for edge in said)

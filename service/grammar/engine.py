@@ -245,9 +245,9 @@ class Language:
         return Typos(self.data.typos, words, self.data.numbers.words(), same)
 
     def _meant(self, word: str) -> frozenset[tuple[str, str]]:
-        """All that a word alone can mean."""
+        """All that a word alone can mean, that the glossary explains it aside."""
         senses = self._lexicon.senses_of((word,))
-        return frozenset((sense.concept, repr(sense.value)) for sense in senses)
+        return frozenset((sense.concept, repr(sense.value)) for sense in senses if sense.concept != "term")
 
     def _nouns(self, word: str) -> frozenset[str]:
         """What a word alone is a noun for, singular and plural taken together."""

@@ -9,18 +9,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
-from service.actions import Action
+from service.actions import Action, Advise, Ask
 from service.actions.table import traits_of
 from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
+from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
 from service.grammar.sentences import Unsayable
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
+from sim.actions import Add, Drive
+from sim.types import Move
+
+MAX_SHORT = 4
+"""A sentence of so many words after "and" may ask the last question once more."""
 
 MAX_WORDS = 15
 """Longer sentences say themselves what they are about."""
@@ -35,19 +41,32 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     "and left?" asks the same of the left.
     """
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
-    if not topic.actions or topic.undone or not (alone or _goes_on_asking(topic, parsed)):
+    if not topic.actions or topic.undone:
+        return parsed
+    if isinstance(parsed, Understood) and _takes_the_place(language, text, topic, parsed):
+        return replace(parsed, actions=done_anew(topic, parsed.actions))
+    if not (alone or _goes_on_asking(topic, parsed)):
         return parsed
     tokens = tokenise(normalise(text), language.data.contractions)
     if len(tokens) > MAX_WORDS:
         return parsed
+    leaning = _Leaning(language, text, tokens, topic)
     try:
-        found = _Leaning(language, text, tokens, topic).read()
+        found = leaning.read()
     except BudgetExceededError:
         return parsed
-    if found is None or alone or text.rstrip().endswith("?"):
+    if alone:
         return found or parsed
     assert isinstance(parsed, Understood)
-    return _which(language, text, found, parsed)
+    return _after_question(language, leaning, found, parsed)
+
+
+def _takes_the_place(language: Language, text: str, topic: Topic, parsed: Understood) -> bool:
+    """Whether a request says at its end that it is meant instead of the last one: "left, I mean"."""
+    if not topic.steps or not about_the_same(topic.actions, parsed.actions):
+        return False
+    tokens = _without_marks(tokenise(normalise(text), language.data.contractions))
+    return language.data.answers.ending(tokens, INSTEAD) > 0
 
 
 def _goes_on_asking(topic: Topic, parsed: Parse) -> bool:
@@ -55,10 +74,43 @@ def _goes_on_asking(topic: Topic, parsed: Parse) -> bool:
     return asked and isinstance(parsed, Understood)
 
 
+def _after_question(language: Language, leaning: _Leaning, found: Parse | None, alone: Understood) -> Parse:
+    """What a sentence means that goes on with a question and is a request by itself.
+
+    "And left?" asks; "and left" may be either, so it is asked about. One that asks what cannot be found out
+    is refused: it must not act.
+    """
+    if not leaning.goes_on or all(traits_of(action).is_question for action in alone.actions):
+        return alone if found is None or not leaning.goes_on else found
+    if found is None:
+        meant = asked_anew(leaning.done, alone.actions)
+        found = None if meant is None else Understood(alone.text, meant)
+    asks = alone.text.rstrip().endswith("?")
+    if found is None:
+        counted = any(isinstance(action, Add) and action.count > 1 for action in alone.actions)
+        return leaning.refusal(alone.text) if asks and leaning.short and not counted else alone
+    return found if asks else _which(language, alone.text, found, alone)
+
+
+def asked_anew(done: Actions, alone: Actions) -> Actions | None:
+    """The last question about what a request names: its move, or its thing; None where it names neither."""
+    if len(done) != 1 or len(alone) != 1:
+        return None
+    (question,), (request,) = done, alone
+    match question, request:
+        case Ask(about="why" | "why_not", move=Move()), Drive(move=move):
+            return (replace(question, move=move),)
+        case Advise(), Add(kind=kind, count=1, where=None):
+            return (replace(question, hazard=kind),)
+        case Ask(about="scene"), Add(kind=kind, count=1, where=None):
+            return (replace(question, kind=kind),)
+    return None
+
+
 def _which(language: Language, text: str, found: Parse, alone: Understood) -> Parse:
     """The question whether the last question goes on or a request is made."""
     if not isinstance(found, Understood):
-        return alone
+        return found
     readings = (found.actions, alone.actions)
     try:
         choices = tuple(Choice(language.sentence(actions), actions) for actions in readings)
@@ -79,6 +131,18 @@ class _Leaning:
         self._topic = topic
         self._spoken_of = replace(topic, actions=(), kind=None, removed=False, undone=False)
         self._work = WorkBudget()
+        follows = self._answers.beginning(self._tokens, FOLLOWS)
+        self.done = topic.actions
+        self.goes_on = follows > 0
+        """whether it begins as what goes on with the last request"""
+        self.short = len(self._tokens) - follows <= MAX_SHORT
+
+    def refusal(self, text: str) -> Refused:
+        """The refusal of all of it."""
+        said, messages = text.strip(), self._language.data.messages
+        return Refused(
+            text, "not_understood", messages["not_understood"].format(phrases=f'"{said}"'), (said,)
+        )
 
     def read(self) -> Parse | None:
         """The reading; None where the sentence does not lean on another, or fits nowhere."""
@@ -121,15 +185,22 @@ class _Leaning:
             said = self._written(part)
             for whole in (f"{base}, {self._answers.replaces} {said}", f"{base} {said}"):
                 parsed = self._read(whole)
-                if parsed is not None and parsed != done and shape(parsed) == shape(done):
+                if parsed is not None and parsed != done and self._alike(parsed, done, goes_on=goes_on):
                     return parsed
         return None
+
+    @staticmethod
+    def _alike(parsed: Actions, done: Actions, *, goes_on: bool) -> bool:
+        """Whether both are as many requests of the same kinds; a correction may be another of its group."""
+        if goes_on:
+            return shape(parsed) == shape(done)
+        return len(parsed) == len(done) and about_the_same(parsed, done)
 
     def _elsewhere(self, done: Actions, rest: Sequence[Token]) -> Actions | None:
         """The last request at another place, where the place as it was said cannot be replaced by words."""
         if not all(getattr(action, "where", None) for action in done):
             return None
-        anywhere: Actions = tuple(replace(action, where=None) for action in done)  # type: ignore[type-var]
+        anywhere = _anywhere(done)
         try:
             base = self._language.sentence(anywhere)
         except Unsayable:
@@ -141,8 +212,7 @@ class _Leaning:
             or not all(getattr(each, "where", None) for each in parsed)
         ):
             return None
-        placed = tuple(replace(action, where=None) for action in parsed)  # type: ignore[type-var]
-        return parsed if placed == anywhere and parsed != done else None
+        return parsed if _anywhere(parsed) == anywhere and parsed != done else None
 
     def _question(self, base: str, done: Actions, rest: Sequence[Token], correcting: bool) -> Parse | None:
         """The question which part of the last request is meant, where there are several."""
@@ -172,6 +242,11 @@ class _Leaning:
 
     def _written(self, tokens: Sequence[Token]) -> str:
         return self._plain[tokens[0].start : tokens[-1].end]
+
+
+def _anywhere(actions: Sequence[Any]) -> Actions:
+    """The actions without their places."""
+    return tuple(replace(action, where=None) for action in actions)
 
 
 def shape(actions: Sequence[Action]) -> list[object]:

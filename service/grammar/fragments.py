@@ -27,6 +27,10 @@ INTERJECTION = "interjection"
 TAG = "tag"
 REPEATED = "repeated"
 """What was done before, said again: "again"."""
+DROP = "drop"
+"""What drops a question: its words may say nothing one by one."""
+_WHOLE_REQUESTS = (REPEATED, DROP)
+"""Phrases that are requests though their words may be glue."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +123,7 @@ def _says_something(lattice: Lattice, start: int, end: int, *, marks: bool = Fal
         for _, stop, (concept, _, form), _ in lattice.edges[at]:
             if stop > end:
                 continue
-            if concept == REPEATED:
+            if concept in _WHOLE_REQUESTS:
                 return True
             if stop > passed and ((concept == GLUE and not form) or (marks and concept == SEPARATOR)):
                 passed = stop

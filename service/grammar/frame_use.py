@@ -37,6 +37,10 @@ _MADE_OF = {
     "one": frozenset(("thing",)),
     "many": frozenset(("thing",)),
     "noun": frozenset(("thing",)),
+    "first": frozenset(("meant",)),
+    "second": frozenset(("meant",)),
+    "steps_or_one": frozenset(("steps",)),
+    "less": frozenset(("columns", "rows")),
 }
 """What the slots of templates that are no concepts are made of (see `build`)."""
 

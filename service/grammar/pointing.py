@@ -1,7 +1,7 @@
 """Finds what a sentence points at: things that are on the road already, and places told from them.
 
 Each becomes one edge. `meant.the` (the nearest car, all cones in lane 2, it) and `meant.some` (two cars) are
-things; `place` gains "behind that car"; `goal` is where things are to be; `becomes` what they are turned into;
+things; `place` gains "behind that car"; `goal` is where things are to be; `becomes` what they turn into;
 `all_except` all but some. The words that make these are concepts of the language's data.
 """
 
@@ -34,18 +34,21 @@ NEAR = "near"
 EGO = "ego"
 """Concept of words for the vehicle itself."""
 MEANT_THE, MEANT_SOME, GOAL_TOLD, GOAL_AT = "meant.the", "meant.some", "goal", "goal.at"
+BECOME = ("becomes.into", "becomes.with", "becomes.for", "becomes.plain")
 ALL_EXCEPT, ALL_BUT, ALL_OTHERS = "all_except", "all_but", "all_others"
 POINTING = frozenset((RELATION, GOAL, BECOMES, EXCEPT, ONES, ALL_WORD)) | frozenset(
-    (MEANT_THE, MEANT_SOME, GOAL_TOLD, GOAL_AT, ALL_EXCEPT, ALL_BUT, ALL_OTHERS)
-    + ("becomes.into", "becomes.with", "becomes.for", "becomes.plain")
+    (MEANT_THE, MEANT_SOME, GOAL_TOLD, GOAL_AT, ALL_EXCEPT, ALL_BUT, ALL_OTHERS, *BECOME)
 )
 """Every concept of this file: those of words, and those of the edges made from them."""
 _TRIGGERS = frozenset((RELATION, GOAL, BECOMES, EXCEPT)) | frozenset(
-    ("v.shift", "v.put", "v.exchange", "v.turn_into", "v.substitute", "v.copy")
+    ("v.shift", "v.put", "v.exchange", "v.turn_into", "v.substitute", "v.copy", "v.were", "v.became")
 )
 EVERYTHING = "everything"
 MAX_PARTS = 3
 """How many parts of a place may stand one after another."""
+_PLACES = ("side", "place")
+_BARE_SIDES = ({"side": "left"}, {"side": "right"})
+"""What is no place to go to, but a way: "to the left"."""
 _ALL = frozenset(("all", "the_many", "those", "bare_many"))
 
 
@@ -56,14 +59,16 @@ class Meant:
     kind: str
     count: int | str
     where: dict[str, Any] | None = None
+    stay: dict[str, Any] | None = None
+    """those of them that are left out"""
 
 
 @dataclass(frozen=True, slots=True)
 class Becomes:
-    """The kind that things become, and whether it was said of one or of many."""
+    """The kind that things become, and whether its noun is that of many things, of one, or of both."""
 
     kind: str
-    many: bool
+    many: frozenset[bool]
 
 
 def add_pointing(lattice: Lattice) -> None:
@@ -81,8 +86,13 @@ def add_pointing(lattice: Lattice) -> None:
         ]
 
 
-def _things_at(lattice: Lattice, at: int) -> Iterator[tuple[int, tuple[Meant, ...], bool]]:
-    """Where they end, the things that the words from here name, and whether they are definite ones."""
+def _things_at(
+    lattice: Lattice, at: int, *, placed: bool = False
+) -> Iterator[tuple[int, tuple[Meant, ...], bool]]:
+    """Where they end, the things that the words from here name, and whether they are definite ones.
+
+    `placed`: a place follows, so that "the car" may be another one than the vehicle itself.
+    """
     if at >= lattice.size:
         return
     for edge in lattice.edges[at]:
@@ -99,7 +109,7 @@ def _things_at(lattice: Lattice, at: int) -> Iterator[tuple[int, tuple[Meant, ..
             kinds = [name.rpartition("-")[0] for name in amount.ids]
             ids = zip(kinds, amount.ids, strict=True)
             yield edge.end, tuple(Meant(kind, 1, {"id": name}) for kind, name in ids), True
-        elif form == "the_one" and _names_ego(lattice, at, edge.end):
+        elif form == "the_one" and not placed and _names_ego(lattice, at, edge.end):
             continue  # "the car" is the vehicle itself
         elif (meant := _meant(form, amount)) is not None:
             yield edge.end, (meant,), form not in ("counted", "bare_many")
@@ -125,7 +135,7 @@ def _meant(form: str, amount: Amount) -> Meant | None:
 
 def _placed_things(lattice: Lattice, at: int) -> Iterator[tuple[int, tuple[Meant, ...], bool]]:
     """The same with a place after them: "the cones in lane 2"."""
-    for end, things, definite in list(_things_at(lattice, at)):
+    for end, things, definite in list(_things_at(lattice, at, placed=True)):
         if len(things) == 1 and things[0].where is None:
             for stop, where in _places_from(lattice, end):
                 yield stop, (Meant(things[0].kind, things[0].count, where),), definite
@@ -141,11 +151,8 @@ def _add_landmarks(lattice: Lattice) -> None:
                     of = _landmark(things)
                     if of is None or (_is_ego(lattice, at, end) and "id" not in of):
                         continue
-                    here = lattice.edges[at]
-                    lattice.edges[at] = [
-                        e for e in here if e.end != end or e.concept not in ("side", "place")
-                    ]
-                    lattice.edges[at].append(Edge(at, end, Sense("place", {**side, "of": of})))
+                    other = [e for e in lattice.edges[at] if e.end != end or e.concept not in _PLACES]
+                    lattice.edges[at] = [*other, Edge(at, end, Sense("place", {**side, "of": of}))]
 
 
 def _past_article(lattice: Lattice, at: int) -> list[int]:
@@ -167,17 +174,24 @@ def _landmark(things: tuple[Meant, ...]) -> dict[str, Any] | None:
 
 def _is_ego(lattice: Lattice, start: int, end: int) -> bool:
     """Whether these words tell a place from the vehicle: "behind the car"."""
-    return any(edge.end == end and edge.concept in ("side", "place") for edge in lattice.edges[start])
+    return any(edge.end == end and edge.concept in _PLACES for edge in lattice.edges[start])
 
 
-def _places_from(lattice: Lattice, at: int, parts: int = MAX_PARTS) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Where it ends, each place that the words from here tell, of one part or several."""
+def _places_from(
+    lattice: Lattice, at: int, parts: int = MAX_PARTS, *, staying: bool = False
+) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Where it ends, each place that the words from here tell, of one part or several.
+
+    `staying`: nothing moves, so that words before a goal say no more than "in".
+    """
     if at >= lattice.size or not parts:
         return
     for edge in lattice.edges[at]:
         concept, value = edge.sense.concept, edge.sense.value
         if (concept == GLUE and not edge.sense.form) or concept == "prep":
-            yield from _places_from(lattice, edge.end, parts)
+            if not staying and any(e.concept == GOAL and e.end == edge.end for e in lattice.edges[at]):
+                continue  # "to" does not lead to where a thing is, but to where it shall be
+            yield from _places_from(lattice, edge.end, parts, staying=staying)
             continue
         part: dict[str, Any] | None = None
         if concept == "place" and isinstance(value, dict):
@@ -192,7 +206,7 @@ def _places_from(lattice: Lattice, at: int, parts: int = MAX_PARTS) -> Iterator[
             continue
         if "distance_m" not in part and part.keys() != {"cells"}:
             yield edge.end, part
-        for end, rest in _places_from(lattice, edge.end, parts - 1):
+        for end, rest in _places_from(lattice, edge.end, parts - 1, staying=staying):
             try:
                 yield end, merge_places([part, rest])
             except CannotBuild:
@@ -200,14 +214,14 @@ def _places_from(lattice: Lattice, at: int, parts: int = MAX_PARTS) -> Iterator[
 
 
 def _add_goals(lattice: Lattice) -> None:
-    """ "To lane 3", "behind that car": where things are to be. `goal.at` needs a verb of putting: "in lane 3"."""
+    """ "To lane 3", "behind that car": where things are to be; `goal.at` ("in lane 3") after verbs of putting."""
     for at in range(lattice.size):
         found = [
             Edge(at, end, Sense(GOAL_TOLD, where))
             for mark in lattice.edges[at]
             if mark.concept == GOAL
             for end, where in _places_from(lattice, mark.end)
-            if not where.keys() & {"each", "id", "nearest"}
+            if not where.keys() & {"each", "id", "nearest"} and where not in _BARE_SIDES
         ]
         for end, where in list(_places_from(lattice, at)):
             if not where.keys() & {"each", "id", "nearest"}:
@@ -229,13 +243,18 @@ def _add_kinds(lattice: Lattice) -> None:
         lattice.edges[at] += found
 
 
-def _kinds_at(lattice: Lattice, at: int) -> Iterator[tuple[int, Becomes]]:
+def _kinds_at(lattice: Lattice, at: int) -> list[tuple[int, Becomes]]:
+    """The kinds that the words from here name; a noun may be the same for one and for many."""
+    found: dict[tuple[int, str], set[bool]] = {}
     for edge in lattice.edges[at] if at < lattice.size else ():
         amount = edge.sense.value
         if edge.concept == "thing.bare_many":
-            yield edge.end, Becomes(amount.of, True)
-        elif edge.concept == "thing.bare_one" or (edge.concept == "thing.counted" and amount.count == 1):
-            yield edge.end, Becomes(amount.of, False)
+            found.setdefault((edge.end, amount.of), set()).add(True)
+        elif edge.concept == "thing.bare_one":
+            found.setdefault((edge.end, amount.of), set()).update((True, False))
+        elif edge.concept == "thing.counted" and amount.count == 1:
+            found.setdefault((edge.end, amount.of), set()).add(False)
+    return [(end, Becomes(kind, frozenset(many))) for (end, kind), many in found.items()]
 
 
 def _add_exceptions(lattice: Lattice) -> None:
@@ -248,10 +267,8 @@ def _add_exceptions(lattice: Lattice) -> None:
                     name = ALL_EXCEPT if "except" in value else ALL_BUT
                     found.append(Edge(at, stop, Sense(name, value)))
                 if kind == EVERYTHING:
-                    found += [
-                        Edge(at, stop, Sense(ALL_OTHERS, others))
-                        for stop, others in _other_kinds(lattice, mark, ())
-                    ]
+                    others = _other_kinds(lattice, mark, ())
+                    found += [Edge(at, stop, Sense(ALL_OTHERS, kinds)) for stop, kinds in others]
         lattice.edges[at] += found
 
 
@@ -285,6 +302,18 @@ def _other_kinds(
     lattice: Lattice, at: int, named: tuple[str, ...]
 ) -> Iterator[tuple[int, tuple[Meant, ...]]]:
     """All things of the kinds that an exception does not name: "the cones and the cars"."""
+    if not named:
+        for start in _past_article(lattice, at):
+            for end, things, _ in list(_things_at(lattice, start)):
+                if len(things) == 1 and things[0].count == 1 and things[0].where == {"nearest": True}:
+                    one = things[0]
+                    yield (
+                        end,
+                        tuple(
+                            Meant(kind, "all", stay=one.where if kind == one.kind else None)
+                            for kind in PLACEABLE
+                        ),
+                    )
     for edge in lattice.edges[at] if at < lattice.size else ():
         if edge.concept not in ("thing.all", "thing.the_many", "thing.bare_many"):
             continue
@@ -307,13 +336,14 @@ def _stays(lattice: Lattice, at: int, kind: str | None) -> Iterator[tuple[int, d
             if concept == "nearest" and kind is not None:
                 yield edge.end, {"kind": kind, "except": {"nearest": True}}
             if concept == ONES and kind is not None:
-                for end, where in _places_from(lattice, edge.end):
+                for end, where in _places_from(lattice, edge.end, staying=True):
                     if not where.keys() & {"each", "nearest"}:
                         yield end, {"kind": kind, "except": where}
             if concept == "thing.counted" and kind in (None, value.of) and isinstance(value.count, int):
                 yield edge.end, {"kind": value.of, "count": value.count}
         for end, things, definite in list(_things_at(lattice, start)):
             thing = things[0]
-            fits = kind in (None, EVERYTHING, thing.kind)
+            named = kind == EVERYTHING and thing.where is not None and "id" in thing.where
+            fits = kind in (None, thing.kind) or named
             if len(things) == 1 and definite and fits and thing.count == 1 and thing.where is not None:
                 yield end, {"kind": thing.kind if kind is None else kind, "except": thing.where}

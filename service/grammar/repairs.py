@@ -235,6 +235,11 @@ def _as_many(found: list[Choice], as_said: object) -> list[Choice]:
     return [choice for choice in found if len(choice.actions) == many] or found
 
 
+def about_the_same(one: Sequence[Action], other: Sequence[Action]) -> bool:
+    """Whether some actions may be said instead of others."""
+    return _groups(one) == _groups(other)
+
+
 def _groups(actions: Sequence[Action]) -> set[object]:
     """What the actions are about."""
     return {

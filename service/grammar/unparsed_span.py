@@ -93,6 +93,8 @@ class GapFinder:
     def _smallest(self, part: Fragment, unknown: Sequence[int], others: Sequence[Span]) -> Gap | None:
         """The smallest stretch of a part, and what is left without it and the others."""
         for span in _by_size(part, unknown):
+            if span[1] < part.end and self._is_link(self._tokens[span[1] - 1].text):
+                continue  # what it leads to would stay: "in lanes 2 to" of "in lanes 2 to 4"
             gap = self._without_span(span, others)
             if gap is not None:
                 return self._with_links(part, gap, others)

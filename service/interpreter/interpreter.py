@@ -187,7 +187,7 @@ class Interpreter:
         What was said drops the pending question, unless it asks for that.
         """
         outcome = await self._execute(session, utterance, dry_run, preconditions)
-        if not dry_run and _drops_pending(utterance):
+        if not dry_run and _drops_pending(utterance, session.pending):
             session.pending = None
         return outcome
 
@@ -283,10 +283,11 @@ class Interpreter:
         raise Asked(PendingQuestion(text, words.said("confirm"), offered, "llm", code))
 
 
-def _drops_pending(utterance: Utterance) -> bool:
-    """Whether nothing is pending after an utterance; typed actions leave a question open."""
+def _drops_pending(utterance: Utterance, pending: PendingQuestion | None) -> bool:
+    """Whether nothing is pending after an utterance; of typed actions, only a choice or `drop` answers."""
     actions = utterance.actions
-    if any(isinstance(action, Drop) for action in actions):
+    chosen = pending is not None and any(choice.actions == actions for choice in pending.choices)
+    if chosen or any(isinstance(action, Drop) for action in actions):
         return True
     asks = all(isinstance(action, Ask) and action.about == "pending" for action in actions)
     return utterance.text is not None and not asks

@@ -54,11 +54,17 @@ class Advices:
         figures, brake = advice.figures, advice.prospect(Choice.BRAKE)
         stopping, distance = self._apart(figures.stopping_m, advice.distance_m)
         steering, distance_steered = self._apart(figures.steering_m, advice.distance_m)
-        by_steering = advice.choice is Choice.STEER
+        most, distance_most = self._apart(figures.stopping_most_m, advice.distance_m)
+        both, distance_both = self._apart(advice.prospect(Choice.BRAKE_AND_STEER).needs_m, advice.distance_m)
+        key = self._key(advice)
+        distances = {Choice.STEER: distance_steered, Choice.BRAKE_AND_STEER: distance_both}
+        distance = distance_most if key == "brake_stops" else distances.get(advice.choice, distance)
         parts = {
             "it": self._say("hazards", advice.hazard, "the"),
             "speed": self._speed(advice),
-            "distance": distance_steered if by_steering else distance,
+            "distance": distance,
+            "most": most,
+            "both": both,
             "stopping": stopping,
             "steering": steering,
             "met": f"{max(1, round(brake.meets_kmh))} km/h",
@@ -66,9 +72,10 @@ class Advices:
             "reaction": f"{self._sayings.number(figures.reaction_s)} s",
         }
         told = [
-            self._say(self._key(advice), **parts),
+            self._say(key, **parts),
             self._say("else", self._other(advice), **parts),
             self._sure(advice),
+            self._death(advice),
         ]
         return " ".join(sentence for sentence in told if sentence)
 
@@ -78,11 +85,16 @@ class Advices:
             return "keep_on" if chosen.chance >= SURE else "keep_late"
         if chosen.choice is Choice.BRAKE and _late(advice):
             return "brake_late"
+        stops = chosen.choice is Choice.BRAKE and chosen.ending is Ending.STOPS
+        if stops and advice.figures.stopping_most_m <= advice.distance_m:
+            return "brake_stops"
         if CLOSE[0] < chosen.chance < CLOSE[1]:
             return f"{chosen.choice}_close"
-        if chosen.choice is Choice.BRAKE and chosen.ending is Ending.STOPS and chosen.chance < SURE:
+        if stops:
             return "brake_likely"
-        return f"steer_{_steered(advice)}" if chosen.choice is Choice.STEER else f"brake_{chosen.ending}"
+        return (
+            f"brake_{chosen.ending}" if chosen.choice is Choice.BRAKE else f"{chosen.choice}_{_aside(advice)}"
+        )
 
     def _other(self, advice: Advice) -> str:
         """What else could be done; braking and steering are told of each other."""
@@ -90,14 +102,14 @@ class Advices:
         match chosen.choice:
             case Choice.KEEP:
                 return "nothing" if chosen.chance >= SURE else "too_late"
-            case Choice.STEER:
+            case Choice.STEER | Choice.BRAKE_AND_STEER:
                 return f"steer_brake_{advice.prospect(Choice.BRAKE).ending}"
             case Choice.BRAKE if _late(advice):
                 return "too_late"
             case Choice.BRAKE if chosen.ending is Ending.STOPS and chosen.chance >= SURE:
                 return "nothing"
             case Choice.BRAKE:
-                return f"brake_steer_{_steered(advice)}"
+                return f"brake_steer_{_aside(advice, Choice.STEER)}"
 
     def _sure(self, advice: Advice) -> str:
         stays = ""
@@ -111,6 +123,14 @@ class Advices:
         else:
             key = "sure" if advice.confidence >= SURE else "chance"
         return self._say(key, percent=percent, **{"while": stays})
+
+    def _death(self, advice: Advice) -> str:
+        """Before people on foot: how many of those that are hit all the same die of it."""
+        chosen = advice.chosen
+        if advice.hazard is not Kind.PEDESTRIAN or advice.confidence == 1.0:
+            return ""
+        count = round(100 * chosen.death / (1.0 - chosen.chance))
+        return self._say("death", "many" if count else "few", count=max(1, count))
 
     def _speed(self, advice: Advice) -> str:
         return self._say("weather", advice.weather, speed=self._kmh(advice.speed_kmh))
@@ -141,6 +161,7 @@ def _late(advice: Advice) -> bool:
     return advice.figures.time_s <= advice.figures.reaction_s
 
 
-def _steered(advice: Advice) -> str:
-    """Whether steering gets clear, when everything is in the middle of its range."""
-    return "clears" if advice.prospect(Choice.STEER).ending is Ending.CLEARS else "misses"
+def _aside(advice: Advice, choice: Choice | None = None) -> str:
+    """Whether a choice, by default the one advised, gets clear when all is in the middle of its range."""
+    prospect = advice.chosen if choice is None else advice.prospect(choice)
+    return "clears" if prospect.ending is Ending.CLEARS else "misses"

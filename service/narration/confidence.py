@@ -6,6 +6,7 @@ from math import ceil, floor
 
 from service.contract.encode.confidence import confidence_json
 from service.narration.answerer import Json, plain
+from service.narration.charges import seconds_worth
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain.confidence import Clarity, Confidence, Method, confidence
@@ -86,7 +87,7 @@ class Confidences:
     def _clarity(self, clarity: Clarity, run: SimState) -> str:
         """The last move against the next best."""
         decision = clarity.decision
-        move, cost = self._sayings.move(decision.move, "name"), decision.chosen.cost
+        move = self._sayings.move(decision.move, "name")
         other = "" if clarity.next_best is None else self._sayings.move(clarity.next_best, "name")
         gap = clarity.gap or 0.0
         return self._say(
@@ -94,9 +95,7 @@ class Confidences:
             _clarity_key(clarity),
             move=move,
             other=other,
-            gap=self._sayings.number(gap),
-            cost="" if cost is None else self._sayings.number(cost),
-            seconds=self._sayings.number(gap * run.config.step_seconds),
+            seconds=seconds_worth(self._sayings, gap, decision.measure, run.config_of(decision.av)),
             planner=self._sayings.planner(decision.planner, "id"),
         )
 

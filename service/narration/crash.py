@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from service.contract.encode.explanation import crash_json
+from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.answerer import Json, not_so, plain
-from service.narration.explanation import called
 from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.options import Options
+from service.narration.proofs import called
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
@@ -42,19 +43,25 @@ class Crashes:
             told |= crash_json(crash, texts)
         return told | {"question": self._say("question" if tick is None else "question_at", tick=tick)}
 
-    def text(self, crash: Crash) -> str:
-        """A crash in a few sentences."""
+    def text(self, crash: Crash, *, detailed: bool = False) -> str:
+        """A crash in a few sentences; `detailed` leaves nothing out for the sake of brevity."""
         decision = crash.explanation.decision
         naming = Naming(self._sayings, crash.explanation.moment, as_seen=False)
-        parts = [
-            self._happened(crash, decision, naming),
-            *self._not_as_seen(crash, naming),
-            self._by_whom(decision),
-            self._otherwise(crash, decision, naming),
-            self._flips(crash, naming),
-            self._saving(crash),
-        ]
-        return " ".join(part for part in parts if part)
+        text = ""
+        for told in range(MOST_TOLD, 0, -1):
+            flips = self._flips(crash, naming, told)
+            parts = [
+                Part(0, self._happened(crash, decision, naming)),
+                *(Part(1, each) for each in self._not_as_seen(crash, naming)),
+                Part(1, self._by_whom(decision)),
+                Part(4, self._otherwise(crash, decision, naming)),
+                Part(3, flips),
+                Part(2, self._saving(crash)),
+            ]
+            text = within(parts, None if detailed else MOST_WORDS)
+            if flips in text:
+                break
+        return text
 
     def _happened(self, crash: Crash, decision: Decision, naming: Naming) -> str:
         cause = crash.cause
@@ -106,21 +113,27 @@ class Crashes:
             return capital(self._say("free", "one" if len(free) == 1 else "many", places=places))
         return self._say("all_met", reasons=self._sayings.all_met(others, "then", naming))
 
-    def _flips(self, crash: Crash, naming: Naming) -> str:
-        """How it goes without what it hung on."""
+    def _flips(self, crash: Crash, naming: Naming, most: int) -> str:
+        """How it goes without what it hung on, told one by one up to so many."""
         flips = crash.explanation.counterfactuals
         if not flips:
             return ""
+        if most == 1:
+            who = [called(name, self._sayings, naming) for name in flips[0].removed]
+            told_one = self._say("flip", who=self._sayings.joined(who))
+            more = len(flips) - 1
+            and_more = self._say("flip_more", "one" if more == 1 else "many", count=more) if more else ""
+            return " ".join(part for part in (told_one, and_more) if part)
         told = [
             self._say(
                 "without",
                 who=self._sayings.joined([called(name, self._sayings, naming) for name in flip.removed]),
                 do=self._sayings.move(flip.move, "do"),
             )
-            for flip in flips[:MOST_TOLD]
+            for flip in flips[:most]
         ]
-        if len(flips) > MOST_TOLD:
-            more = len(flips) - MOST_TOLD
+        if len(flips) > most:
+            more = len(flips) - most
             told.append(self._say("and_more", "one" if more == 1 else "many", count=more))
         alone = all(len(flip.removed) == 1 for flip in flips)
         return self._say("run_again" if alone else "run_again_all", flips=self._sayings.listed(told))
@@ -130,14 +143,37 @@ class Crashes:
             return self._say("chance")
         saving = crash.saving
         if saving is None:
-            if crash.whole:
-                return self._say("never")
-            return self._say("not_since", ticks=crash.looked_back) if crash.looked_back > 1 else ""
+            return " ".join(part for part in (self._no_way(crash), self._avoiding(crash)) if part)
         doing = self._sayings.move(saving.instead, "doing")
+        seconds = self._seconds(saving.ticks, crash)
         if saving.tick == crash.explanation.decision.tick:
-            return self._say("saved_last", doing=doing, ticks=saving.ticks)
+            return self._say("saved_last", doing=doing, seconds=seconds)
         did = self._sayings.move(saving.made, "did")
-        return self._say("saved", tick=saving.tick, did=did, doing=doing, ticks=saving.ticks)
+        return self._say("saved", tick=saving.tick, did=did, doing=doing, seconds=seconds)
+
+    def _no_way(self, crash: Crash) -> str:
+        """That no way led to the goal, as far back as it is known."""
+        if crash.whole:
+            return self._say("never")
+        return (
+            self._say("not_since", seconds=self._seconds(crash.looked_back, crash))
+            if crash.looked_back > 1
+            else ""
+        )
+
+    def _avoiding(self, crash: Crash) -> str:
+        """Whether the crash could have been avoided all the same, and how."""
+        last, decision = crash.avoidable.last, crash.explanation.decision
+        if last is None:
+            return self._say("unavoidable" if crash.avoidable.proved else "avoidable_unknown")
+        when = "now" if last.tick == decision.tick else "before"
+        key = "stays" if last.stays else "moves"
+        doing = self._sayings.move(last.instead, "doing")
+        did = self._sayings.move(last.made, "did")
+        return self._say("avoidable", key, when, tick=last.tick, did=did, doing=doing)
+
+    def _seconds(self, ticks: int, crash: Crash) -> str:
+        return self._sayings.number(ticks * crash.explanation.moment.config.step_seconds)
 
     def _not_so(self, error: QuestionError) -> str:
         if error.code not in _ITS_OWN:

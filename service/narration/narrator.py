@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from service.narration.answers import Answers
+from service.narration.charges import seconds_worth
 from service.narration.episode_end import Ends
 from service.narration.inflection import capital
 from service.narration.naming import Naming
@@ -23,6 +24,7 @@ from service.sessions.scheduler.playback_speed import PlaybackSpeed
 from sim.decide import sense
 from sim.events import Event, EventType
 from sim.explain.side_by_side import SideBySide
+from sim.explain.telling import telling_option
 from sim.forecast import Forecast
 from sim.perceive import sensor_named
 from sim.plan import Decision, Measure, Option
@@ -89,18 +91,21 @@ class Narrator:
         if decision.measure is Measure.OWN:
             return self._own(decision, naming)
         if not ranked:
-            return self._weighed(decision, run, naming)
+            return self._weighed(decision, run, naming, forecast)
         chosen = decision.chosen
-        if first.reason.blocks and decision.move is not Move.STAY:
-            return self._other(decision.move, first, naming)
+        if chosen.reason.blocks:
+            return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
+        telling = telling_option(run, decision, forecast)
+        if first.reason.blocks and decision.move is not Move.STAY and telling is not None:
+            return self._other(decision.move, telling, naming)
         ahead = planner_reasons(self._sayings, decision, run, forecast)
-        if ahead is not None and not chosen.reason.blocks:
-            return self._say("other", move=self._named(decision.move), reason=ahead.reason("now"))
+        if ahead is not None:
+            return self._say("other", move=self._named(decision.move), reason=ahead.reason("now", telling))
         if decision.move is not Move.STAY:
-            return self._other(decision.move, first, naming)
-        if chosen.verdict == "free":
-            return self._say("no_way")
-        return self._say("no_safe_way", reason=self._sayings.met(chosen, "now", naming))
+            if telling is None:
+                return self._say("none_open", move=self._named(decision.move))
+            return self._other(decision.move, telling, naming)
+        return self._say("no_way")
 
     def _other(self, move: Move, met: Option, naming: Naming) -> str:
         """Another move than the first, for what that would have met."""
@@ -218,7 +223,7 @@ class Narrator:
         """The answer to a question, as JSON values."""
         return self._answers.answer(asked)
 
-    def _weighed(self, decision: Decision, run: SimState, naming: Naming) -> str:
+    def _weighed(self, decision: Decision, run: SimState, naming: Naming, forecast: Forecast | None) -> str:
         """The move of a planner that knows what each costs in all, against going straight on."""
         name = self._named(decision.move)
         straight, chosen = decision.option(Move.FORWARD), decision.chosen
@@ -233,9 +238,12 @@ class Narrator:
         if straight.cost is None:
             if straight.dead_end:
                 return self._say("leads_nowhere", move=name)
+            if telling_option(run, decision, forecast) is not straight:
+                return self._say("none_open", move=name)
             return self._say("other", move=name, reason=self._sayings.met(straight, "now", naming))
         more = straight.cost - chosen.cost
-        return self._say(f"saves_{decision.measure}", move=name, more=self._sayings.number(more))
+        worth = seconds_worth(self._sayings, more, decision.measure, run.config_of(decision.av))
+        return self._say(f"saves_{decision.measure}", move=name, more=worth)
 
     def _own(self, decision: Decision, naming: Naming) -> str:
         """The move of another package's planner, with what is so, and without a reason: none is known."""

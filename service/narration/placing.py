@@ -54,7 +54,9 @@ def how_many_now(sayings: Sayings, run: SimState, kinds: Sequence[Kind], *, left
     counts = run.world.counts()
     count = counts[kinds[0]] if len(kinds) == 1 else sum(counts.values())
     noun = kinds[0] if len(kinds) == 1 else "everything"
-    form = "none" if not count else "one" if count == 1 else "many"
+    form = "one" if count == 1 else "many"
+    if not count:
+        form = "everything" if left and not any(counts.values()) and len(kinds) > 1 else "none"
     things = sayings.things(noun, max(count, 1) if count else 2)
     return sayings.say("replies", "left" if left else "now", form, count=count, things=things)
 

@@ -64,20 +64,28 @@ class PlannerReasons:
             told += self._closed_aside(tense, met)
         return self._sayings.joined(told)
 
-    def reason(self, tense: str) -> str:
-        """The one of them that says most: what is in the way straight on, or what is waited for."""
+    def reason(self, tense: str, telling: Option | None) -> str:
+        """The one of them that says most: what is in the way straight on, or what is waited for.
+
+        `telling`: a move whose blockers matter, if there is one; no others are named.
+        """
         straight, decision = self._straight, self._decision
         if decision.move is Move.STAY and self._standing.columns is None:
             return self._say("walled_in", tense)
         against = self._against(straight, tense)
         moving = self._standing.columns == 0 or any(kind_of(name).moves for name in straight.causes)
         if decision.move is not Move.STAY or moving:
-            return against or self._sayings.met(straight, tense, self._naming)
+            return against or self._met(telling, tense)
         blocked = [option for option in decision.preferred if option is not straight and option.causes]
-        if blocked:
-            return self._sayings.met(blocked[0], tense, self._naming)
+        if blocked and telling is not None:
+            return self._met(telling, tense)
         told = self._closed_aside(tense, [])
-        return told[0] if told else against or self._sayings.met(straight, tense, self._naming)
+        return told[0] if told else against or self._met(telling, tense)
+
+    def _met(self, telling: Option | None, tense: str) -> str:
+        if telling is None:
+            return self._say("none_open", tense)
+        return self._sayings.met(telling, tense, self._naming)
 
     def choice_of_side(self) -> str:
         """Why it was this side and not the other, for a step aside; nothing where the other was no choice."""

@@ -45,6 +45,9 @@ def told_rearranged(sayings: Sayings, applied: Applied, action: Rearranging) -> 
             count = len(applied.added)
             things, others = sayings.things(kind, count), sayings.things(by, count)
             now = how_many_now(sayings, run, [by], left=False)
+            if count == 1:
+                a, other = (sayings.say("words", "a", each) for each in (kind, by))
+                return say("replace_one", a=a, other=other, now=now)
             return say("replace", count=count, things=things, others=others, now=now)
         case Copy(kind=kind):
             count, key = len(applied.added), "copy_one" if len(applied.added) == 1 else "copy_many"
@@ -78,6 +81,9 @@ def supposed_rearranged(sayings: Sayings, applied: Applied, action: Rearranging,
         case Replace(kind=kind, by=by):
             count = len(applied.added)
             things, others = sayings.things(kind, count), sayings.things(by, count)
+            if count == 1:
+                a, other = (sayings.say("words", "a", each) for each in (kind, by))
+                return say("replaced_one", a=a, other=other)
             return say("replaced", count=count, things=things, others=others)
         case Copy(kind=kind):
             count = len(applied.added)

@@ -47,6 +47,9 @@ from sim.state import SimState
 from sim.types import KINDS, Kind, Mode
 from sim.world import Thing
 
+TOLD_SINGLY = 3
+"""More things than this, put into cells one after another, are told at once."""
+
 
 class Replies:
     """Replies in one language."""
@@ -58,11 +61,17 @@ class Replies:
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
-        told = [
-            self._all_gone(group) if len(group) > 1 and _by_name(group[0]) else self._done(group[-1])
-            for group in _grouped(facts)
-        ]
+        told = [self._told_at_once(group) for group in _grouped(facts)]
         return " ".join(sentence for sentence in told if sentence)
+
+    def _told_at_once(self, group: list[Fact]) -> str:
+        if len(group) > 1 and _by_name(group[0]):
+            return self._all_gone(group)
+        if _by_cell(group[0]):
+            if len(group) > TOLD_SINGLY:
+                return self._all_placed(group)
+            return " ".join(self._done(fact) for fact in group)
+        return self._done(group[-1])
 
     def lesson(self, lesson: AliasChange) -> str:
         """What was taught or forgotten, as the sentence that says the same."""
@@ -185,6 +194,12 @@ class Replies:
         things = [thing for each in applied for thing in each.removed]
         return self._moved("remove", things, applied[-1].state)
 
+    def _all_placed(self, group: list[Fact]) -> str:
+        """Several things put into cells one by one, told at once."""
+        applied = [fact for fact in group if isinstance(fact, Applied)]
+        things = [thing for each in applied for thing in each.added]
+        return self._moved("add", things, applied[-1].state)
+
     def _exactly(self, kind: Kind, count: int, applied: Applied) -> str:
         """How many there are of a kind now, and how many there were."""
         are = self._sayings.say("replies", "are", "one" if count == 1 else "many")
@@ -192,8 +207,11 @@ class Replies:
         before = [change.before for change in applied.changes if change.path == KINDS[kind].plural]
         if not before:
             return self._say("set_count_already", are=are, count=count, things=things)
-        were = self._sayings.say("replies", "were", "one" if before[0] == 1 else "many", before=before[0])
-        return self._say("set_count", are=are, count=count, things=things, were=were)
+        form = {0: "none", 1: "one"}.get(before[0], "many")
+        were = self._sayings.say("replies", "were", form, before=before[0])
+        return self._say(
+            "set_count" if count else "set_count_none", are=are, count=count, things=things, were=were
+        )
 
     def _undone(self, undone: Undone) -> str:
         """What is as it was before, or as it was made again."""
@@ -261,11 +279,12 @@ class Replies:
 def _grouped(facts: tuple[Fact, ...]) -> list[list[Fact]]:
     """The facts one by one, but together what is told at once.
 
-    Things that are taken away by name one after another; and wishes, of which the last tells all that hold.
+    Things that are taken away by name or put into cells, one after another; and wishes, of which the last
+    tells all that hold.
     """
     groups: list[list[Fact]] = []
     for fact in facts:
-        if groups and any(alike(fact) and alike(groups[-1][-1]) for alike in (_by_name, _wish)):
+        if groups and any(alike(fact) and alike(groups[-1][-1]) for alike in (_by_name, _by_cell, _wish)):
             groups[-1].append(fact)
         else:
             groups.append([fact])
@@ -278,6 +297,16 @@ def _known(change: Change) -> bool:
 
 def _wish(fact: Fact) -> bool:
     return isinstance(fact, Applied) and isinstance(fact.action, Prefer)
+
+
+def _by_cell(fact: Fact) -> bool:
+    return (
+        isinstance(fact, Applied)
+        and isinstance(fact.action, Add)
+        and fact.action.where is not None
+        and fact.action.where.cell is not None
+        and not fact.events
+    )
 
 
 def _by_name(fact: Fact) -> bool:

@@ -6,6 +6,7 @@ from service.actions import Ask
 from service.actions.table import imagined_actions
 from service.contract.encode.forecast import what_if_json
 from service.narration.answerer import Json, not_so, plain
+from service.narration.charges import in_seconds, likely
 from service.narration.naming import Naming
 from service.narration.rearranged import supposed_rearranged
 from service.narration.sayings import Sayings
@@ -79,11 +80,11 @@ class WhatIfs:
         clauses = self._conditions.clauses(found)
         if found.no_effect or not clauses:
             told.append(self._say("so_already"))
-            told.append(self._say("as_it_is", end=self._end(found.real, found.state)))
+            told.append(self._as_it_is(found))
         else:
             told.append(self._condition(clauses, found))
             if found.state.world.tick in found.changed.held_back:
-                told.append(self._say("held_back"))
+                told.append(self._say("held_back" if self._on_road(found) else "off_road"))
             told += self._beside(found)
         if found.said_since:
             told.append(self._say("said_since", tick=ask.tick))
@@ -91,6 +92,9 @@ class WhatIfs:
 
     def _condition(self, clauses: list[str], found: WhatIf) -> str:
         """The change as a condition, and what would come of it."""
+        if found.by_chance:
+            then = self._next_move(found)
+            return self._say("if", clauses=self._sayings.joined(clauses), then=then)
         difference, action = found.first_difference, found.done[0].action
         if (
             len(found.done) == 1
@@ -103,6 +107,31 @@ class WhatIfs:
             return self._say("driven", do=do, doing=doing, end=self._both(found))
         return self._say("if", clauses=self._sayings.joined(clauses), then=self._then(found))
 
+    def _next_move(self, found: WhatIf) -> str:
+        """The next move, where all after it hangs on chance."""
+        difference = found.first_difference
+        if not found.same_road:
+            return self._say("chance_road")
+        if difference is None or difference.ahead:
+            return self._say("chance_same")
+        do, doing = self._moves(difference)
+        return self._say("chance_now", do=do, doing=doing)
+
+    @staticmethod
+    def _on_road(found: WhatIf) -> bool:
+        """Whether the first move that a person would ask for leads to a cell of the road."""
+        asked = next((each.action.move for each in found.done if isinstance(each.action, Drive)), None)
+        state = found.state
+        return (
+            asked is None
+            or state.config.ego_dynamics(state.world.road).target(state.world.av, asked) is not None
+        )
+
+    def _as_it_is(self, found: WhatIf) -> str:
+        if found.by_chance:
+            return self._say("as_it_is_chance", real=likely(self._sayings, found.real_chances))
+        return self._say("as_it_is", end=self._end(found.real, found.state))
+
     def _then(self, found: WhatIf) -> str:
         """What I would do, and what would come of it."""
         if not found.same_road:
@@ -113,17 +142,19 @@ class WhatIfs:
         if difference is None:
             return self._say("same_moves", end=self._both(found))
         do, doing = self._moves(difference)
-        seconds = self._say(
-            "seconds", seconds=self._sayings.number(difference.ahead * found.state.config.step_seconds)
-        )
+        seconds = self._ticks(difference.ahead, found.state)
         return self._say(
             self._when(difference, found), do=do, doing=doing, end=self._both(found), time=seconds
         )
 
     def _beside(self, found: WhatIf) -> list[str]:
         """How it is beside that: the end on this road, or what the real move costs."""
+        if found.by_chance:
+            both = (likely(self._sayings, each) for each in (found.changed_chances, found.real_chances))
+            changed, real = both
+            return [self._say("chance", changed=changed, real=real), *self._why_nothing(found)]
         if not found.same_road:
-            return [self._say("as_it_is", end=self._end(found.real, found.state))]
+            return [self._as_it_is(found)]
         difference, regret = found.first_difference, found.regret
         if difference is None:
             return self._why_nothing(found)
@@ -137,12 +168,14 @@ class WhatIfs:
             return [self._say(f"no_way{now}")]
         if regret.ticks == 0:
             return []
-        return [self._say(f"loses_ticks{now}", doing=doing, ticks=self._ticks(regret.ticks))]
+        return [self._say(f"loses_ticks{now}", doing=doing, ticks=self._ticks(regret.ticks, found.state))]
 
     def _why_nothing(self, found: WhatIf) -> list[str]:
         """Wishes are nothing to a planner that does not weigh."""
         planner = found.done[-1].state.config.planner
-        wished = any(isinstance(each.action, Prefer) for each in found.done)
+        wished = found.first_difference is None and any(
+            isinstance(each.action, Prefer) for each in found.done
+        )
         if not wished or traits_of(planner).weighs_costs or found.real.by_hand:
             return []
         return [self._sayings.say("replies", "weighs_nothing", planner=self._sayings.planner(planner, "id"))]
@@ -168,13 +201,15 @@ class WhatIfs:
     def _both(self, found: WhatIf) -> str:
         """Both ends in one clause."""
         real, changed, run = found.real, found.changed, found.state
-        parts = {**self._parts(changed, run), "count": real.driven}
+        parts = {**self._parts(changed, found.done[-1].state), "count": self._ticks(real.driven, run)}
         if self._alike(found) or real.outcome is changed.outcome is Outcome.STUCK:
             return self._say("alike", _ending(changed), **parts)
         same = real.cause is None or changed.cause is None or real.cause.kind is changed.cause.kind
         if real.outcome is changed.outcome is not Outcome.RUNNING and same:
             return self._say("both", changed.outcome, **parts)
-        return self._say("rather", changed=self._end(changed, run), real=self._end(real, run))
+        return self._say(
+            "rather", changed=self._end(changed, found.done[-1].state), real=self._end(real, run)
+        )
 
     def _end(self, story: EpisodeRollout, run: SimState) -> str:
         return self._say("ends", _ending(story), **self._parts(story, run))
@@ -183,12 +218,12 @@ class WhatIfs:
         a = "" if story.cause is None else self._sayings.say("words", "a", story.cause.kind)
         return {
             "a": a,
-            "ticks": self._ticks(story.driven),
+            "ticks": self._ticks(story.driven, run),
             "planner": self._sayings.planner(run.config.planner, "id"),
         }
 
-    def _ticks(self, count: int) -> str:
-        return self._say("ticks", "one" if count == 1 else "many", count=count)
+    def _ticks(self, count: int, run: SimState) -> str:
+        return self._say("seconds", seconds=in_seconds(self._sayings, count, run.config))
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("whatif", *keys, **parts)

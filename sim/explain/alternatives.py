@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from sim.decide import moves_where, next_belief
 from sim.ego import Ego
+from sim.explain.chances import Chances, chances
 from sim.explain.episode_rollout import rollout
 from sim.fast_replace import field_setter
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
@@ -47,6 +48,15 @@ class Alternatives:
     where that is not known within `sim.oracle.lower_bounds.PATIENCE`"""
     dead_end: bool
     """whether after the foil no way leads on, and after the move made one does"""
+    would_chances: Chances | None = None
+    """the chances after the foil, where it is left to chance how others react; `would` is one future then"""
+    real_chances: Chances | None = None
+    """the same after the move that was made"""
+
+    @property
+    def by_chance(self) -> bool:
+        """Whether it hangs on chance how one of the two ends."""
+        return any(each is not None and not each.settled for each in (self.would_chances, self.real_chances))
 
 
 def stakes(state: SimState, decision: Decision, foil: Move) -> Alternatives | None:
@@ -56,7 +66,8 @@ def stakes(state: SimState, decision: Decision, foil: Move) -> Alternatives | No
     ego = decision.av
     other, real = after_move(state, foil, ego), after_move(state, decision.move, ego)
     ticks_lost, dead_end = _compared(other, real, ego)
-    return Alternatives(foil, _end(other, ego), _end(real, ego), ticks_lost, dead_end)
+    likely = [chances(each, ego, seen=False) for each in (other, real)]
+    return Alternatives(foil, _end(other, ego), _end(real, ego), ticks_lost, dead_end, *likely)
 
 
 def _compared(other: SimState, real: SimState, ego: str) -> tuple[int | None, bool]:

@@ -18,41 +18,16 @@ In manual mode it is told how it goes if the ego drives from here on by itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from enum import StrEnum
-from itertools import count
-from typing import Final, TypeAlias
 
-from sim.config import Config
-from sim.decide import INTO_ANOTHER, decide_on, sense
 from sim.explain.facts import QuestionError, check_ego
-from sim.forecast import Forecast
-from sim.perceive import Belief, sensor_named
-from sim.plan import Decision, Traits, traits_of
-from sim.randomness import Stream
-from sim.search.costs import weights
-from sim.search.dead_ends import cells_that_may_arrive
-from sim.search.reachability import steps_left
+from sim.explain.futures import Futures
+from sim.plan import Decision
 from sim.session.timeline import Timeline
-from sim.state import FIRST, SimState, StepResult
+from sim.state import FIRST
 from sim.statistics import wilson
-from sim.transition import step
 from sim.types import Mode, Move, Outcome
-from sim.world.grid import Board
-
-WALK_SHARE: Final = 2 / 3
-"""How much of the work goes into walking the whole tree before futures are drawn instead."""
-PROOF_AFTER: Final = 40
-"""Decisions of a quick planner after which futures are looked at for whether they are shut off; at once with
-any other, whose decision costs as much as the look."""
-MAX_FUTURES: Final = 200
-
-
-End: TypeAlias = tuple[Outcome | None, int]
-"""How and how many ticks from now a future ends; None where it is shut off from the goal."""
-Ends: TypeAlias = dict[End, float]
-"""The chance of each end, or how often it was met."""
 
 
 class Method(StrEnum):
@@ -127,7 +102,7 @@ def confidence(timeline: Timeline, *, ego: str | None = None) -> Confidence:
     check_ego(state, ego)
     if state.world.outcome is not Outcome.RUNNING:
         raise QuestionError("confidence_ended", outcome=state.world.outcome, tick=state.world.tick)
-    futures = _Futures(state, ego or FIRST)
+    futures = Futures(state, ego or FIRST)
     ends = futures.walked()
     drawn = None
     if ends is None:
@@ -176,207 +151,3 @@ def _clarity(timeline: Timeline, ego: str | None) -> Clarity | None:
         return Clarity(decision, free, None, None)
     next_best = min(others, key=lambda option: option.cost or 0.0)
     return Clarity(decision, free, next_best.move, (next_best.cost or 0.0) - cost)
-
-
-@dataclass(slots=True)
-class _Node:
-    """A moment of a future; `after` is where it may go, with the chance of each, once that is known."""
-
-    state: SimState
-    after: list[tuple[float, _Node]] | None = None
-
-
-@dataclass(slots=True)
-class _Futures:
-    """The tree of futures of a moment, grown where it is looked at."""
-
-    start: SimState
-    ego: str = FIRST
-    work: int = 0
-    branched: int = 0
-    _nodes: dict[tuple[int, ...], list[_Node]] = field(default_factory=dict)
-    _root: _Node = field(init=False)
-    _traits: Traits = field(init=False)
-    _known: bool = field(init=False)
-    """whether what is decided hangs only on the rows from the ego on"""
-    _faithful: bool = field(init=False)
-    _buffer: int = field(init=False)
-    _number: int = field(init=False)
-    """the ego's place in `World.avs`"""
-    _several: bool = field(init=False)
-    """whether there are other egos, so that what lies behind this one may matter to them"""
-    _leading_on: list[Board] | None = None
-    _unlike: Config = field(init=False)
-    """the configuration for ticks that are drawn one unlike the other"""
-
-    def __post_init__(self) -> None:
-        config = self.start.config
-        self._root = _Node(self.start.with_ego(self.ego, mode=Mode.AUTO))
-        self._number = self.start.number(self.ego)
-        self._several = len(self.start.world.avs) > 1
-        # Sensors may show anything, but for those that show the truth.
-        self._traits = traits_of(self.start.config_of(self.ego).planner)
-        self._faithful = sensor_named(config.sensor).faithful
-        self._known = self._traits.forward_only and self._faithful and not self._several
-        self._buffer = weights(config).buffer if self._traits.weighs_costs else 0
-        # A tick that is drawn to be certain proves nothing about those that come again.
-        self._unlike = config.with_parts(repetition=config.repetition and config.certain)
-
-    def walked(self) -> Ends | None:
-        """The chance of each end, by outcome and ticks from now; None if the tree is too large to walk."""
-        ends: Ends = {}
-        layer: dict[int, tuple[_Node, float]] = {id(self._root): (self._root, 1.0)}
-        if (shut := self._end(self._root)) is not None:
-            return {shut: 1.0}
-        while layer:
-            after: dict[int, tuple[_Node, float]] = {}
-            for node, mass in layer.values():
-                if self.branched and self.work >= WALK_SHARE * self._limit:
-                    return None
-                for chance, then in self._after(node):
-                    end = self._end(then)
-                    if end is not None:
-                        ends[end] = ends.get(end, 0.0) + mass * chance
-                    else:
-                        _, before = after.get(id(then), (then, 0.0))
-                        after[id(then)] = then, before + mass * chance
-            layer = after
-        return ends
-
-    def drawn(self) -> Ends:
-        """How often each end was met, by outcome and ticks from now, in futures drawn by chance.
-
-        Whether one more is drawn does not hang on how long it would be, so that short ones are not favoured.
-        """
-        world = self.start.world
-        stream = Stream.of(self.start.config.seed, "confidence", world.episode, world.episode_tick)
-        ends: Ends = {}
-        limit = self.work + (1.0 - WALK_SHARE) * self._limit
-        for number in range(MAX_FUTURES):
-            if self.work >= limit:
-                break
-            node, draws, step = self._root, stream.narrow(number), count()
-            while (end := self._end(node)) is None:
-                node = _pick(self._after(node), draws.uniform(next(step)))
-            ends[end] = ends.get(end, 0.0) + 1.0
-        return ends
-
-    @property
-    def _limit(self) -> int:
-        return self._traits.decisions_per_answer
-
-    def _end(self, node: _Node) -> End | None:
-        world = node.state.world
-        ticks = world.tick - self.start.world.tick
-        if self._several and world.avs[self._number] < world.road.columns:
-            return (Outcome.CRASH if world.outcome is Outcome.CRASH else Outcome.SUCCESS), ticks
-        if world.outcome is not Outcome.RUNNING:
-            # Where others have arrived the episode is over, and this ego has not.
-            return (
-                Outcome.STUCK if world.outcome is Outcome.SUCCESS and self._several else world.outcome
-            ), ticks
-        if self._several:
-            return None  # what is shut off depends on the other egos
-        if self._traits.quick and self.work < PROOF_AFTER:
-            return None  # most are done by now, and the proof would cost more than they did
-        if self._leading_on is None:
-            self._leading_on = _hopeful(self.start)
-        return None if self._leading_on[ticks] >> world.av & 1 else (None, ticks)
-
-    def _after(self, node: _Node) -> list[tuple[float, _Node]]:
-        if node.after is None:
-            ways = [(1.0, self.start.config)] if node is self._root else list(self._ways(node.state))
-            self.branched += len(ways) > 1
-            node.after = [(chance, self._step(node.state, config)) for chance, config in ways]
-        return node.after
-
-    def _ways(self, state: SimState) -> Iterator[tuple[float, Config]]:
-        """What may be drawn in the coming tick: the chance of it, and a configuration that draws it.
-
-        What makes no difference to where anything goes is one way. The tick that comes next is seen already,
-        which is why the root has no ways to choose from.
-        """
-        world, config = state.world, state.config
-        behaviour = config.mover_behaviour
-        possible = behaviour.possible_reactions(world, config)
-        if len(possible) == 1:
-            yield 1.0, config
-            return
-        ways: dict[object, tuple[float, Config]] = {}
-        for drawn, chance in possible:
-            drawing = behaviour.drawing(world, self._unlike, drawn)
-            if self._known:
-                forecast = Forecast.of_truth(world, drawing, 1)
-                standing = forecast.standing
-                key: object = forecast.slices[0], None if standing is None else standing.slices[0]
-            else:
-                key = drawn
-            before, first = ways.get(key, (0.0, drawing))
-            ways[key] = before + chance, first
-        yield from (way for way in ways.values() if way[0] > 0.0)
-
-    def _step(self, state: SimState, config: Config) -> _Node:
-        self.work += 1
-        tick, belief = self._taken(state, config)
-        for each in tick.steps.values():
-            if each.decision.fault not in (None, INTO_ANOTHER):
-                # It may answer the next time, or cost a new process each time: neither is to be built upon.
-                raise QuestionError(
-                    "confidence_fault", planner=each.decision.planner, fault=each.decision.fault
-                )
-        after = replace(tick.state, config=self.start.config)
-        if belief != after.belief:
-            after = after.with_ego(belief=belief)
-        alike = self._nodes.setdefault(self._key(after), [])
-        beliefs = [each.belief for each in after.egos.values()]
-        for node in alike:
-            if [each.belief for each in node.state.egos.values()] == beliefs:
-                return node
-        alike.append(_Node(after))
-        return alike[-1]
-
-    def _taken(self, state: SimState, config: Config) -> tuple[StepResult, Belief]:
-        """A tick in which movers react as this configuration draws it, and the belief after it.
-
-        The draws of a sensor are the session's own, not those of the seed that has these movers react; but of
-        several egos each looks anew.
-        """
-        drawn = replace(state, config=config)
-        if self._faithful or self._several or config is self.start.config:
-            tick = step(drawn)
-            return tick, tick.state.belief
-        percept, belief = sense(state)
-        moving = percept.right | percept.left
-        drawing = config.mover_behaviour.reactions(state.world, config)
-        seen = replace(percept, yielding=drawing.yielding & moving, attentive=drawing.attentive & moving)
-        return step(drawn, {FIRST: decide_on(drawn, seen)}), belief
-
-    def _key(self, state: SimState) -> tuple[int, ...]:
-        """Equal for moments from which everything goes on alike, where their beliefs are equal too."""
-        world = state.world
-        ahead = world.road.all
-        if self._known:
-            rows = world.road.cell(world.av)[1] + 1 + self._buffer
-            ahead = (1 << min(rows, world.road.rows) * world.road.columns) - 1
-        boards = (world.right, world.left, *world.boards.marked)
-        return (
-            world.tick,
-            tuple(Outcome).index(world.outcome),
-            *world.avs,
-            *(board & ahead for board in boards),
-        )
-
-
-def _hopeful(state: SimState) -> list[Board]:
-    """The cells from which the goal may still be reached in time, by ticks from now."""
-    limit = steps_left(state.config, state.world.episode_tick)
-    return cells_that_may_arrive(Forecast.of_truth(state.world, state.config, max(1, limit)), limit)
-
-
-def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:
-    """The way on which a draw from [0, 1) falls."""
-    for chance, node in ways:
-        if draw < chance:
-            return node
-        draw -= chance
-    return ways[-1][1]

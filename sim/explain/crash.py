@@ -15,12 +15,13 @@ they made.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
 from sim.commit import commit
 from sim.explain.alternatives import after_move
+from sim.explain.avoidance import UNKNOWN, Avoidable, find_avoidance
 from sim.explain.factors import is_factor
 from sim.explain.facts import Explanation, QuestionError, Verified, check_ego
 from sim.explain.intervention import Intervention
@@ -31,7 +32,7 @@ from sim.judge import collisions
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.oracle.other_egos import ego_first
 from sim.perceive import Percept, perceive_truth
-from sim.plan import Option
+from sim.plan import Decision, Option
 from sim.search.reactive import ImpatientError
 from sim.session.timeline import SNAPSHOT_TICKS, Timeline
 from sim.state import FIRST, SimState
@@ -76,6 +77,8 @@ class Crash:
     """whether that was the whole way from the episode's beginning, on a road nobody changed"""
     saving: LastAvoidance | None
     """None where no way led to the goal at any of those ticks"""
+    avoidable: Avoidable
+    """whether the crash could have been avoided all the same; not looked for where `saving` is known"""
     met: tuple[Option, ...]
     """the moves of the last tick with what each of them would have met, whatever was seen of it"""
     missed: tuple[str, ...] = ()
@@ -147,7 +150,22 @@ def why_crashed(timeline: Timeline, tick: int | None = None, *, ego: str | None 
     free = tuple(option.move for option in met if option.verdict == "free")
     involved = dict.fromkeys((*after.cause.ids, *(cause.id for cause in explanation.causes)))
     missed = tuple(name for name in involved if _missed(rerun, name))
-    return Crash(explanation, after.cause, after.tick, free, certain, looked_back, whole, saving, met, missed)
+    avoidable = UNKNOWN
+    if certain and saving is None:
+        avoidable = find_avoidance(_driven(timeline, state, ego, looked_back), whole=whole)
+    return Crash(
+        explanation,
+        after.cause,
+        after.tick,
+        free,
+        certain,
+        looked_back,
+        whole,
+        saving,
+        avoidable,
+        met,
+        missed,
+    )
 
 
 def led_to_crash(timeline: Timeline, tick: int | None) -> bool:
@@ -265,6 +283,15 @@ def _by_salience(rerun: Intervention, met: tuple[Option, ...]) -> list[str]:
         return seen
     there = by_salience(_truth(rerun), replace(rerun.decision, options=met))
     return list(dict.fromkeys([*there, *seen]))
+
+
+def _driven(timeline: Timeline, fatal: SimState, ego: str, ticks: int) -> Iterator[tuple[SimState, Decision]]:
+    """The states before a crash with what was decided in them, the last first."""
+    end = fatal.world.tick + 1
+    for state in reversed(list(timeline.between(max(0, end - ticks), end))):
+        decision = timeline.decided(state, ego)
+        if decision is not None:
+            yield state, decision
 
 
 def _saving(timeline: Timeline, fatal: SimState, ego: str) -> tuple[int, bool, LastAvoidance | None]:

@@ -8,21 +8,12 @@ from typing import Literal
 
 from sim.actions import Add, WorldAction
 from sim.explain.alternatives import Alternatives
+from sim.explain.question_error import QuestionError
 from sim.plan import Decision
 from sim.state import SimState
 from sim.types import Cell, Kind, Move
 
-
-class QuestionError(ValueError):
-    """A question about something that is not so: a tick that never was, a move never made.
-
-    `code` is for programs and sayings, `facts` are what a sentence about it needs.
-    """
-
-    def __init__(self, code: str, **facts: object) -> None:
-        super().__init__(f"{code}: {facts}")
-        self.code = code
-        self.facts = facts
+__all__ = ["Cause", "Counterfactual", "Explanation", "Link", "QuestionError", "Role", "Verified", "check_ego"]
 
 
 def check_ego(state: SimState, ego: str | None) -> None:
@@ -65,6 +56,17 @@ class Cause:
     """whether each of a group of several would have been enough by itself"""
     real: bool = True
     """whether it was there, in the cell in which it was seen; False for what a sensor made up or misplaced"""
+    rest_blocks: bool = False
+    """whether, with this one alone gone, others of its group meet the move that is made without the group"""
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """Something that stood in the way of a move because of another thing; without that it is not there."""
+
+    blocker: str
+    by: str
+    move: Move
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,3 +123,14 @@ class Explanation:
     """what the foil would have led to; None without one, or where it leads off the road"""
     reruns: int
     """how often the decision was run again for this answer"""
+    also: tuple[Cause, ...] = ()
+    """of `why`: causes beside `causes`, with their groups: they flip the decision by themselves, or are told
+    to be in the way"""
+    chain: tuple[Link, ...] = ()
+    """of `why`: what stood in the way because of something else"""
+    untried: int = 0
+    """of `why`: things seen that were not tried by themselves, and might flip the decision too"""
+    searched: int = 0
+    """of `why_not`: edits up to which every change was tried for one that leads to the foil"""
+    tried: int = 0
+    """of `why_not`: changes that were tried"""

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from sim.actions import WorldAction
 from sim.decide import announced_before, decide_on, sense
+from sim.explain.chances import Chances, chances
 from sim.explain.episode_rollout import EpisodeRollout, decided, rollout, summarize
 from sim.explain.facts import check_ego
 from sim.explain.moments import state_at
@@ -57,6 +58,16 @@ class WhatIf:
     """whether the regret is exact: nothing is left to who gives way"""
     said_since: int
     """how many actions said after the moment are left out"""
+    real_chances: Chances | None = None
+    """the chances as it is, where how others react is left to chance: `real` is then one future of many"""
+    changed_chances: Chances | None = None
+    """the same after the change"""
+
+    @property
+    def by_chance(self) -> bool:
+        """Whether it hangs on chance how one of the two ends."""
+        both = self.real_chances, self.changed_chances
+        return None not in both and any(each is not None and not each.settled for each in both)
 
     @property
     def no_effect(self) -> bool:
@@ -104,7 +115,10 @@ def what_if(
             lost = regret(before, difference.real, PATIENCE, ego=ego)
     since = state.world.tick
     said_since = 0 if tick is None else sum(entry.tick > since for entry in timeline.entries)
-    return WhatIf(state, tuple(done), real, other, same_road, difference, lost, certain, said_since)
+    likely: tuple[Chances | None, Chances | None] = (None, None)
+    if state.world.outcome is changed.world.outcome is Outcome.RUNNING and first is None:
+        likely = chances(state, ego, seen=True), chances(changed, ego, seen=True)
+    return WhatIf(state, tuple(done), real, other, same_road, difference, lost, certain, said_since, *likely)
 
 
 def _new_road(done: Sequence[Applied]) -> bool:

@@ -17,12 +17,14 @@ spared; whether any smaller part would do is then tried outright.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations
 from typing import Protocol
 
 from sim.explain.factors import is_factor
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.intervention import Intervention, wall
+from sim.explain.rest import Rest
 from sim.oracle.ddmin import ddmin
 from sim.perceive import Percept
 from sim.plan import Decision, Option
@@ -38,6 +40,9 @@ MAX_TRIED = 6
 MAX_GROUPS = 6
 """Number of causes, not necessary alone, for which the group is searched."""
 
+MOST_PAIRED = 24
+"""Of so many things, the most telling, each is tried as the one stand-in of a cause."""
+
 
 def explain_why(
     state: SimState, decision: Decision, announced: Mapping[str, Move] | None = None
@@ -45,15 +50,16 @@ def explain_why(
     """Why `decision` was taken in a state, by its ego. `announced`: as for `Intervention`."""
     rerun = Intervention(state, decision, announced)
     fact = decision.move
-    enough, groups, minimal = minimal_sufficient_set(
-        rerun, fact, [*rerun.factors, *by_salience(rerun.percept, decision)]
-    )
+    names = [*rerun.factors, *by_salience(rerun.percept, decision)]
+    enough, groups, minimal = minimal_sufficient_set(rerun, fact, names)
     if decision.held_back:
         hindered = [option for option in decision.options if option.move is decision.asked]
     else:
         hindered = list(decision.preferred)
-    causes = rank_causes(rerun, fact, rerun.seen, hindered, groups)
-    told = dict.fromkeys(cause.group for cause in causes if cause.group)
+    causes = _with_what_the_rest_blocks(rerun, rank_causes(rerun, fact, rerun.seen, hindered, groups))
+    rest = Rest.of(rerun, names, hindered, groups)
+    also = rank_causes(rerun, fact, rerun.seen, hindered, rest.groups)
+    told = dict.fromkeys(cause.group for cause in (*causes, *also) if cause.group)
     flips = [rerun.counterfactual(group, rerun.without(group)) for group in told]
     foil = next((option.move for option in decision.preferred if option.cell is not None), None)
     return Explanation(
@@ -70,7 +76,21 @@ def explain_why(
         counterfactuals=tuple(flips or _had_it_been_blocked(rerun, decision)),
         stakes=None,
         reruns=rerun.count,
+        also=also,
+        chain=rest.chain,
+        untried=rest.untried,
     )
+
+
+def _with_what_the_rest_blocks(rerun: Intervention, causes: tuple[Cause, ...]) -> tuple[Cause, ...]:
+    """The causes, and of those with stand-ins whether these would then be in the way themselves."""
+    told = []
+    for cause in causes:
+        if len(cause.group) > 1 and not cause.each_enough:
+            met = rerun.decision_without(cause.group[:1]).option(rerun.without(cause.group)).causes
+            cause = replace(cause, rest_blocks=not {*cause.group[1:]}.isdisjoint(met))
+        told.append(cause)
+    return tuple(told)
 
 
 class Tried(Protocol):
@@ -142,10 +162,20 @@ def _groups(tried: Tried, fact: object, names: list[str], enough: list[str]) -> 
 def _group(tried: Tried, fact: object, name: str, names: list[str], enough: list[str]) -> tuple[str, ...]:
     """A cause that is not necessary alone, and the things to remove with it so that the move changes.
 
-    A group always exists: without this cause and all non-causes, the other causes are not sufficient.
+    A set that flips the move always exists: without this cause and all non-causes, the other causes are not
+    sufficient. It is the group if no member of it can be spared; else there is none to be told.
     """
     stand_ins = [other for other in names if other not in enough]
-    return (name, *minimal_subset(stand_ins, lambda gone: tried.without([name, *gone]) is not fact))
+    alike = (other for other in names[:MOST_PAIRED] if other != name and tried.without([other]) is fact)
+    pair = next((other for other in alike if tried.without([name, other]) is not fact), None)
+    if pair is not None:
+        return name, pair
+    found = name, *minimal_subset(stand_ins, lambda gone: tried.without([name, *gone]) is not fact)
+    if len(found) > MAX_TRIED:
+        return () if tried.without(found[1:]) is not fact else found
+    parts = (part for size in range(1, len(found)) for part in combinations(found, size))
+    smallest = next((part for part in parts if tried.without(part) is not fact), found)
+    return smallest if name in smallest else ()
 
 
 def minimal_subset(names: list[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:

@@ -1,24 +1,23 @@
 """Why not another move: the smallest change of the road after which that move is made.
 
-First by taking away what was seen to stand in its way; if it is not made even then, because a move that comes
-before it is free, by blocking those moves' cells as well: with a barrier, or where a mover is just
-leaving the cell, with a pothole that holds it. A change is only stated if
-the decision, run again with it, is the move asked about.
+A change takes away what was seen, blocks cells beside the vehicle (with a barrier, or where a mover is just
+leaving the cell, with a pothole that holds it), or says another wish. Small changes are tried first
+(`smallest_change`). Where they run out, larger ones are built: what stands in the move's way is taken away,
+and the free moves that come before it are blocked. A change is only stated if the decision, run again with
+it, is the move asked about.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import get_args
+from collections.abc import Iterator, Mapping, Sequence
 
-from sim.actions import Add, Prefer, Wish, WorldAction
+from sim.actions import Add
 from sim.explain.alternatives import stakes
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.intervention import Intervention, wall
+from sim.explain.smallest_change import ChangeSearch, Edit, Edits, SmallestChange
 from sim.explain.why_causes import by_salience, minimal_subset
-from sim.oracle.ddmin import ddmin
 from sim.plan import Decision, Measure
-from sim.session.errors import EditError
 from sim.state import SimState
 from sim.types import Move
 
@@ -31,34 +30,48 @@ def explain_why_not(
 ) -> Explanation:
     """Why `foil` was not the move of `decision` in a state. `announced`: as for `Intervention`."""
     rerun = Intervention(state, decision, announced)
-    cleared = _cleared(rerun, decision, foil)
-    freed = rerun.without(cleared) is foil
-    if freed:
-        cleared = ddmin(cleared, lambda names: rerun.without(names) is foil)
-    if not freed and _led_to(decision, foil) and (opened := _opened(rerun, foil)):
-        cleared, freed = opened, True
-    wished = [] if freed else _wished(rerun, cleared, foil)
-    walls = [] if freed or wished else _walls(rerun, cleared, foil)
-    counterfactuals = []
-    if walls or wished:
-        change, phantoms = (*rerun.removal(cleared), *wished, *walls), rerun.phantoms(cleared)
-        counterfactuals.append(Counterfactual(change, foil, tuple(cleared), phantoms))
-    elif cleared:
-        counterfactuals.append(rerun.counterfactual(cleared, rerun.without(cleared)))
-    elif freed:
-        counterfactuals.append(Counterfactual((), foil))
-    causes = _causes(rerun, foil, cleared, freed)
+    cleared, flips = [], []
+    found = SmallestChange(None, 0, 0)
+    if decision.option(foil).cell is not None and (decision.asked is None or decision.held_back):
+        names = [*rerun.factors, *by_salience(rerun.percept, decision)]
+        search = ChangeSearch(rerun, foil, names)
+        found = search.smallest(_larger(rerun, search, decision, foil))
+        if found.edits is None:
+            cleared = _cleared(rerun, decision, foil)
+            flips = [rerun.counterfactual(cleared, rerun.without(cleared))] if cleared else []
+        else:
+            cleared = [edit.gone for edit in found.edits if edit.gone]
+            change, undetected = search.change(found.edits)
+            flips = [Counterfactual(change, foil, tuple(cleared), undetected)]
+    freed = found.edits is not None and all(edit.gone for edit in found.edits)
     return Explanation(
         about="why_not",
         moment=state,
         decision=decision,
         foil=foil,
-        causes=causes,
+        causes=_causes(rerun, foil, cleared, freed),
         verified=_verified(rerun, foil, cleared, freed),
-        counterfactuals=tuple(counterfactuals),
+        counterfactuals=tuple(flips),
         stakes=stakes(state, decision, foil),
         reruns=rerun.count,
+        searched=found.searched,
+        tried=found.tried,
     )
+
+
+def _larger(rerun: Intervention, search: ChangeSearch, decision: Decision, foil: Move) -> Iterator[Edits]:
+    """Larger changes that may lead to the foil, to be cut down."""
+    cleared = _cleared(rerun, decision, foil)
+    away = tuple(Edit(gone=name) for name in cleared)
+    if away:
+        yield away
+    if _led_to(decision, foil):
+        yield tuple(Edit(gone=name) for name in _opened(rerun, foil))
+    walls = tuple(Edit(actions=(each,)) for each in _walls(rerun, cleared, foil))
+    if walls:
+        yield away + walls
+    if cleared or decision.option(foil).verdict == "free":
+        yield away + tuple(_walled_in(rerun, search, away, foil))
 
 
 def _cleared(rerun: Intervention, decision: Decision, foil: Move) -> list[str]:
@@ -90,34 +103,30 @@ def _opened(rerun: Intervention, foil: Move) -> list[str]:
     )
 
 
-def _wished(rerun: Intervention, cleared: Sequence[str], foil: Move) -> list[WorldAction]:
-    """The one other wish with which a planner that weighs costs makes the foil, if there is one."""
-    if rerun.decision.measure is not Measure.COST:
-        return []
-    away, phantoms = rerun.removal(cleared), rerun.phantoms(cleared)
-    for wish in get_args(Wish):
-        change = Prefer(preference=wish)
-        if rerun.after((*away, change), phantoms) is foil:
-            return [change]
-    return []
-
-
 def _walls(rerun: Intervention, cleared: Sequence[str], foil: Move) -> list[Add]:
-    """What blocks the free moves that come before the foil, if with it the foil is the move taken."""
-    seen = rerun.decision_without(cleared)
-    if seen.option(foil).cell is None or seen.asked is not None:
+    """What blocks the free moves that come before the foil."""
+    seen = rerun.decision_without(cleared) if cleared else rerun.decision
+    if seen.asked is not None:
         return []
     world = rerun.state.world.without(frozenset(cleared))
-    away, phantoms = rerun.removal(cleared), rerun.phantoms(cleared)
     before = seen.options[: seen.options.index(seen.option(foil))]
     cells = [option.cell for option in before if option.verdict == "free" and option.cell is not None]
     if world.road.cell(rerun.percept.ego) in cells:
         return []  # nothing can be put where the ego stands, so staying cannot be taken away
-    walls = [wall(world, cell) for cell in cells]
-    try:
-        return walls if walls and rerun.after((*away, *walls), phantoms) is foil else []
-    except EditError:  # something is there that was not seen
-        return []
+    return [wall(world, cell) for cell in cells]
+
+
+def _walled_in(rerun: Intervention, search: ChangeSearch, away: Edits, foil: Move) -> Edits:
+    """What blocks the moves made one after the other, until it is the foil or none can be blocked."""
+    walls: Edits = ()
+    world = rerun.state.world.without(frozenset(edit.gone for edit in away))
+    for _ in Move:
+        made = search.made(away + walls)
+        cell = None if made is None else rerun.decision.option(made).cell
+        if made in (None, foil, Move.STAY) or cell is None:
+            break
+        walls += (Edit(actions=(wall(world, cell),)),)
+    return walls
 
 
 def _causes(rerun: Intervention, foil: Move, cleared: Sequence[str], freed: bool) -> tuple[Cause, ...]:

@@ -1,6 +1,6 @@
 """The work that a search may do, counted and never timed, so that the same moment has the same answer.
 
-A unit is one tick of the simplest planner on a road of the default size; a road twice as large costs twice.
+A unit is one tick of the simplest planner on a road of the default size or less; twice the size costs twice.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Budget:
         """Count some ticks of a road of this size. Raises `BudgetSpentError` or `CancelledError`."""
         if self.cancelled():
             raise CancelledError
-        cost = max(1, ticks * work * config.columns * config.rows // CELLS_A_UNIT)
+        cost = ticks * work * max(CELLS_A_UNIT, config.columns * config.rows) // CELLS_A_UNIT
         if cost > self.left:
             raise BudgetSpentError
         self.left -= cost

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, cast
 
 from sim.actions import Add, Degree, GoalName, PlaceableKind, Remove, Where, WorldAction
 from sim.goals.budget import Budget
@@ -23,6 +23,7 @@ from sim.session.edits import apply
 from sim.session.errors import EditError
 from sim.state import SimState
 from sim.types import Kind, Outcome
+from sim.world import Thing
 from sim.world.grid import cells_of
 
 HARDER_BY: Final[dict[Degree | None, float]] = {"little": 0.05, None: 0.12, "lot": 0.25}
@@ -31,8 +32,8 @@ HARDER_BY: Final[dict[Degree | None, float]] = {"little": 0.05, None: 0.12, "lot
 EASIER_BY: Final[dict[Degree | None, float]] = {"little": 0.1, None: 0.25, "lot": 0.5}
 """The share of the room taken by things that an easier road has again at least."""
 
-MOST_THINGS: Final[dict[Degree | None, int]] = {"little": 8, None: 14, "lot": 28}
-"""Largest number of things that are added or removed."""
+CELLS_A_THING: Final[dict[Degree | None, int]] = {"little": 15, None: 8, "lot": 5}
+"""One thing is added or removed at most for every so many cells of the road."""
 
 DRAWS: Final = 10
 """Changes that are tried for each thing."""
@@ -69,7 +70,7 @@ def find_harder(state: SimState, degree: Degree | None, budget: Budget) -> Findi
     def distance(level: Difficulty) -> float | None:
         return level.room - wanted if level.ticks >= before.ticks else None
 
-    return _search("harder", state, before, _placing, distance, MOST_THINGS[degree], budget)
+    return _search("harder", state, before, _placing, distance, _most_things(state, degree), budget)
 
 
 def find_easier(state: SimState, degree: Degree | None, budget: Budget) -> Finding | None:
@@ -86,7 +87,7 @@ def find_easier(state: SimState, degree: Degree | None, budget: Budget) -> Findi
     def distance(level: Difficulty) -> float | None:
         return wanted - level.room if level.ticks <= before.ticks else None
 
-    return _search("easier", state, before, _removing, distance, MOST_THINGS[degree], budget)
+    return _search("easier", state, before, _removing, distance, _most_things(state, degree), budget)
 
 
 def _search(
@@ -110,6 +111,12 @@ def _search(
             actions = tuple(each.action for each in found)
             return Finding(goal, actions, last.state, last.level, before, after, drives)
     return None
+
+
+def _most_things(state: SimState, degree: Degree | None) -> int:
+    """The largest number of things that are added or removed."""
+    road = state.world.road
+    return road.columns * road.rows // CELLS_A_THING[degree]
 
 
 def _agrees(goal: GoalName, was: Drive, now: Drive) -> bool:
@@ -182,7 +189,12 @@ def _removing(state: SimState, stream: Stream) -> Remove | None:
     if not things:
         return None
     thing = things[stream.below(len(things), 0)]
-    return Remove(kind=thing.kind.value, count=1, where=Where(id=thing.id))
+    return _taking(thing)
+
+
+def _taking(thing: Thing) -> Remove:
+    kind = cast(PlaceableKind, thing.kind.value)
+    return Remove(kind=kind, count=1, where=Where(id=thing.id))
 
 
 def _opened(state: SimState, budget: Budget) -> Finding | None:
@@ -196,7 +208,7 @@ def _opened(state: SimState, budget: Budget) -> Finding | None:
         thing = after.world.find(name)
         if thing is None or thing.kind is Kind.AV:
             return None
-        action = Remove(kind=thing.kind.value, count=1, where=Where(id=name))
+        action = _taking(thing)
         actions.append(action)
         after = apply(after, action).state
     level = measure(after, budget)

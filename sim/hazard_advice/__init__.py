@@ -2,9 +2,10 @@
 
 `physics` has the textbook formulas. Uncertain quantities (reaction time, friction, the distance itself)
 follow published distributions (`parameters`) and are sampled once (`samples`). The chance of a choice is the
-share of samples without harm (`chances`); the choice with the best chance is advised (`advise`). Not
-modelled: motion of the hazard, traffic behind and beside, slopes, the build-up of brake pressure, and braking
-while steering. Sentences are made elsewhere.
+share of samples without harm (`chances`); the choice with the best chance is advised, before people on foot
+the one with the least expected harm by the published risk of death (`advise`). Not
+modelled: motion of the hazard, traffic behind and beside, slopes and the build-up of brake pressure. Braking
+while steering shares the friction between them. Sentences are made elsewhere.
 """
 
 from sim.hazard_advice.advise import advise

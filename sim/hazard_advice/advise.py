@@ -1,18 +1,19 @@
-"""Chooses the advice: the choice with the best chance; among equal chances the gentlest."""
+"""Chooses the advice: the best chance; before people on foot the least expected harm."""
 
 from __future__ import annotations
 
 from typing import Final
 
 from sim.actions import Weather
-from sim.hazard_advice.facts import Advice, Choice, NoAdviceError, Prospect
+from sim.hazard_advice.facts import Advice, NoAdviceError, Prospect
 from sim.hazard_advice.parameters import DISTANCES_M, SAMPLES, SPEEDS_KMH
 from sim.types import Kind
 
-EVEN_CHANCE: Final = 0.05
-"""Chances that differ by less count as equal, since traffic beside and behind is not known."""
-EVEN_HARM_KMH: Final = 2.0
-"""Choices whose mean speed of harm (km/h) differs by no more count as equally harmful."""
+SURE_OF_KEEPING: Final = 0.995
+"""From this chance on it is advised to keep on: it hangs on the speed alone, whatever the distance."""
+SERIOUS: Final = 0.11
+"""What a serious injury counts against a death. UK Department for Transport, TAG data book: preventing a
+serious casualty is valued at about 11 % of preventing a fatal one. Whoever is hit counts as one."""
 
 
 def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather = "clear") -> Advice:
@@ -44,9 +45,20 @@ def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather =
 
 
 def _best(hazard: Kind, found: tuple[Prospect, ...]) -> Prospect:
-    """Orders by the best chance, then the least speed of harm, then the least effort."""
-    open_ = [each for each in found if each.choice is not Choice.KEEP or hazard is Kind.POTHOLE]
-    most = max(each.chance for each in open_)
-    even = [each for each in open_ if each.chance > most - EVEN_CHANCE]
-    least = min(each.harm_kmh for each in even)
-    return next(each for each in even if each.harm_kmh <= least + EVEN_HARM_KMH)
+    """Keeps on where that is safe by the speed alone; else the choice with the least expected harm.
+
+    Chances count in whole hundredths, so that the chance that is stated never falls with more room or less
+    speed merely because a gentler choice was taken. Among equals the least speed of harm counts, then the
+    effort.
+    """
+    keep, *others = found
+    if hazard is Kind.POTHOLE and keep.chance >= SURE_OF_KEEPING:
+        return keep
+    if hazard is Kind.PEDESTRIAN:
+        return min(others, key=lambda each: (round(expected_harm(each), 3), -round(each.chance, 2)))
+    return min(others, key=lambda each: (-round(each.chance, 2), round(each.harm_kmh)))
+
+
+def expected_harm(prospect: Prospect) -> float:
+    """Expected harm to a person on foot: a death counts 1, any other hit `SERIOUS`."""
+    return prospect.death + SERIOUS * (1.0 - prospect.chance - prospect.death)

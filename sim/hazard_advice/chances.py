@@ -66,7 +66,13 @@ def prospects(
     distance = distance_m * samples.distance_ratio(weather)
     reaction, friction = samples.reaction(), samples.friction(weather)
     lateral = physics.lateral_acceleration(speed, friction, samples.lateral_share())
-    aside_s = reaction + physics.steering_time(_offset(hazard, samples.width(hazard)), lateral)
+    steering_s = physics.steering_time(_offset(hazard, samples.width(hazard)), lateral)
+    aside_s = reaction + steering_s
+    both_ms2 = friction * GRAVITY * physics.braking_left(samples.lateral_share())
+    middle_ms2 = middle.deceleration_ms2 * float(physics.braking_left(LATERAL.middle))
+    both = float(
+        physics.speed_met_aside(middle.speed_ms, middle.reaction_s, middle_ms2, middle.steering_s, distance_m)
+    )
     braked = float(physics.speed_left(middle.speed_ms, middle.reaction_s, middle.friction, distance_m))
     clears = middle.steering_m <= distance_m
     met = {
@@ -80,6 +86,11 @@ def prospects(
             np.where(speed * aside_s <= distance, 0.0, speed),
             0.0 if clears else speed_kmh,
             middle.steering_m,
+        ),
+        Choice.BRAKE_AND_STEER: (
+            physics.speed_met_aside(speed, reaction, both_ms2, steering_s, distance),
+            3.6 * both,
+            _needed_with_both(middle, middle_ms2),
         ),
     }
     unharmed_below = samples.pothole_harm() if hazard is Kind.POTHOLE else np.float64(0.0)
@@ -96,9 +107,16 @@ def prospects(
                 needs_m=needs_m,
                 meets_kmh=typical_kmh,
                 harm_kmh=3.6 * float(np.sum(meets, where=harmed)) / SAMPLES,
+                death=float(np.mean(physics.death_risk(3.6 * meets))) if hazard is Kind.PEDESTRIAN else 0.0,
             )
         )
     return tuple(found)
+
+
+def _needed_with_both(middle: Figures, braking_ms2: float) -> float:
+    """Distance (m) that braking and steering at once needs: until the car is aside, or has stopped before."""
+    time_s = min(middle.steering_s, middle.speed_ms / braking_ms2)
+    return middle.reaction_m + middle.speed_ms * time_s - braking_ms2 * time_s * time_s / 2
 
 
 def interval(share: float, count: int) -> tuple[float, float]:
@@ -117,5 +135,5 @@ def _offset(hazard: Kind, width: physics.Number) -> physics.Number:
 
 def _ending(choice: Choice, meets_kmh: float, unharmed_kmh: float) -> Ending:
     if meets_kmh == 0.0:
-        return Ending.CLEARS if choice is Choice.STEER else Ending.STOPS
+        return Ending.STOPS if choice is Choice.BRAKE else Ending.CLEARS
     return Ending.CROSSES if meets_kmh <= unharmed_kmh else Ending.HITS

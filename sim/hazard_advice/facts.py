@@ -17,6 +17,8 @@ class Choice(StrEnum):
     KEEP = "keep"
     BRAKE = "brake"
     STEER = "steer"
+    BRAKE_AND_STEER = "brake_and_steer"
+    """both at once, sharing the friction"""
 
 
 class Ending(StrEnum):
@@ -45,6 +47,8 @@ class Prospect:
     """speed (km/h) at the hazard; 0 if it is not reached"""
     harm_kmh: float
     """mean over the samples of the speed (km/h) at which harm is done; 0 in samples without harm"""
+    death: float = 0.0
+    """of a person on foot: mean over the samples of the published risk of death at the speed of impact"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,8 +97,8 @@ class Advice:
 
     @property
     def confidence(self) -> float:
-        """The chance of no harm if the advice is followed."""
-        return self.chosen.chance
+        """The chance of no harm if the advice is followed, in whole hundredths: no more is claimed."""
+        return round(self.chosen.chance, 2)
 
     def prospect(self, choice: Choice) -> Prospect:
         """The outcome of a choice."""

@@ -60,7 +60,7 @@ class PriorityPlanner:
 
     name = "priority"
     traits = Traits(
-        local=True, forward_only=True, plans_to_goal=False, work=SIMPLEST, decisions_per_answer=450
+        local=True, near=True, forward_only=True, plans_to_goal=False, work=SIMPLEST, decisions_per_answer=450
     )
 
     def horizon(self, config: Config) -> int:  # noqa: ARG002 - the same for every road

@@ -26,6 +26,8 @@ class Traits:
     local: bool = False
     """Decides from what never moves and the movers of its row and the next one. While its vehicle stays in a
     row, a situation that comes again then proves a livelock (`sim.repetition`)."""
+    near: bool = False
+    """Of what never moves, too, reads nothing beyond its row and the next one."""
     forward_only: bool = False
     """Reads no mover behind the ego's row beyond the range of its costs (`weighs_costs`), and for the coming
     tick only the forecast's slices. Futures that differ elsewhere are merged (`sim.explain.confidence`)."""

@@ -1,6 +1,8 @@
-"""Corrections of what an earlier utterance did: offered, never done without being asked about."""
+"""Corrections of what an earlier utterance did: it is taken back and done anew, or asked about."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import pytest
 
@@ -13,7 +15,7 @@ def after(language: Language, said: str) -> Topic:
     """The topic after a sentence was done."""
     done = language.parse(said)
     assert isinstance(done, Understood)
-    return Topic(actions=done.actions)
+    return Topic(actions=done.actions, steps=1)
 
 
 @pytest.mark.parametrize(
@@ -24,22 +26,38 @@ def after(language: Language, said: str) -> Topic:
         ("add five potholes", "I meant three", "add three potholes"),
         ("add five potholes", "make that three", "add three potholes"),
         ("add five potholes", "no, cars", "add five cars"),
-        ("add five potholes", "no, add three potholes", "add three potholes"),
         ("raise the safety buffer by one", "no, two", "raise the safety buffer by two"),
         ("make it rain", "I meant snow", "make it snow"),
     ],
 )
-def test_a_correction_of_what_was_done_is_offered_with_and_without_taking_it_back(
+def test_a_correction_takes_back_what_was_done_and_does_it_anew(
     language: Language, said: str, correction: str, meant: str
 ) -> None:
     parsed = language.parse(correction, after(language, said))
-    assert isinstance(parsed, Ambiguous)
     done = language.parse(meant)
+    assert isinstance(parsed, Understood)
     assert isinstance(done, Understood)
-    assert [dump(choice.actions) for choice in parsed.choices] == [
-        [{"do": "undo"}, *dump(done.actions)],
-        dump(done.actions),
-    ]
+    assert dump(parsed.actions) == [{"do": "undo"}, *dump(done.actions)]
+
+
+def test_a_correction_of_a_correction_takes_back_both(language: Language) -> None:
+    topic = replace(after(language, "add five potholes"), steps=2)
+    parsed = language.parse("no, three", topic)
+    assert isinstance(parsed, Understood)
+    assert dump(parsed.actions)[0] == {"do": "undo", "steps": 2}
+
+
+def test_what_did_nothing_is_not_taken_back(language: Language) -> None:
+    parsed = language.parse("I meant snow", replace(after(language, "make it rain"), steps=0))
+    assert isinstance(parsed, Understood)
+    assert dump(parsed.actions) == [{"do": "set", "parameter": "weather", "value": "snow"}]
+
+
+def test_a_whole_request_that_comes_on_top_is_asked_about(language: Language) -> None:
+    parsed = language.parse("no, add three potholes", after(language, "add five potholes"))
+    assert isinstance(parsed, Ambiguous)
+    added = {"do": "add", "kind": "pothole", "count": 3}
+    assert [dump(choice.actions) for choice in parsed.choices] == [[{"do": "undo"}, added], [added]]
     for choice in parsed.choices:
         again = language.parse(choice.text)
         assert isinstance(again, Understood)

@@ -73,3 +73,15 @@ def test_a_saying_that_is_refused_is_found_and_no_suggestion(copy: Path) -> None
 def test_a_missing_language_says_where_it_was_sought(tmp_path: Path) -> None:
     with pytest.raises(LanguageDataError, match="no language"):
         Language.load("xx", tmp_path)
+
+
+def test_a_frame_that_drops_what_it_takes_is_found(copy: Path) -> None:
+    frame = "  odd: {needs: view, takes: weather, do: {do: show, view: $view}}\n"
+    append(copy / "en" / "intents/show.yaml", frame)
+    assert "frame odd takes weather and drops it" in Language.load(folder=copy).check()
+
+
+def test_a_frame_may_say_what_it_drops(copy: Path) -> None:
+    frame = "  odd: {needs: view, takes: weather, drops: weather, do: {do: show, view: $view}}\n"
+    append(copy / "en" / "intents/show.yaml", frame)
+    assert not any("drops" in defect for defect in Language.load(folder=copy).check())

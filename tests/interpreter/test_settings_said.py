@@ -34,7 +34,10 @@ async def talking(settings: Settings) -> AsyncIterator[Service]:
         ("heavy traffic", "Traffic is heavy now. On this road now: cars"),
         ("set the spawn probability to 0.4", "It shows from the next road on."),
         ("raise the safety buffer by one", "The safety buffer: 1 cell of distance → 2 cells of distance."),
-        ("steer clear of potholes", "From now on I keep away from potholes. But the planner “Rules” weighs"),
+        (
+            "steer clear of potholes",
+            "From now on I keep away from potholes. But the planner “Rules” does not weigh",
+        ),
         ("set rows to 40", "The number of rows: 30 → 40. A new road"),
     ],
 )

@@ -39,7 +39,7 @@ def test_a_crash_is_told_with_what_it_hung_on_and_what_would_have_saved_it() -> 
         "Run again without one of what it hung on, I meet nothing: without the car on my right I move right; "
         "without the car right ahead I go forward; without the pothole 5 m ahead on my right I go forward. "
         "The last tick at which a way still led to the goal was 17: there I went forward, "
-        "where moving diagonally right would have come to it, 41 ticks in all."
+        "where moving diagonally right would have come to it, 20.5 s after the start."
     )
     assert told["question"] == "Why did you crash?"
     assert told["about"] == "why"

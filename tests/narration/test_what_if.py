@@ -51,8 +51,8 @@ def asked(run: SimState, *change: dict[str, Any]) -> dict[str, Any]:
         (
             [{"do": "prefer", "preference": "cautious"}],
             "If I kept my distance, nothing would change: I would make the same moves, and arrive in "
-            "5 ticks. But the planner “Priority rules of the source” weighs nothing: say “use A*” for one "
-            "that does.",
+            "5 ticks. But the planner “Priority rules of the source” does not weigh such wishes: "
+            "say “use A*” for one that does.",
         ),
         (
             [{"do": "set", "parameter": "planner", "value": "bfs"}],

@@ -9,7 +9,7 @@ import sys
 from random import Random
 from typing import Any, get_args
 
-from service.actions import Action, dump, load
+from service.actions import Action, Term, dump, load
 from service.grammar import Language, Understood
 from service.grammar.sentences import Unsayable
 from service.styles import styles
@@ -88,6 +88,7 @@ class Maker:
             self.add,
             self.remove,
             self.set_count,
+            self.rearranged,
             self.scenario,
             self.set,
             self.adjust,
@@ -115,6 +116,75 @@ class Maker:
 
     def set_count(self) -> dict[str, Any]:
         return {"do": "set_count", "kind": self.pick(KINDS), "count": self.random.choice((0, self.count()))}
+
+    def rearranged(self) -> dict[str, Any]:
+        """Something done to things that are on the road."""
+        kind, other = self.random.sample(KINDS[:4], 2)
+        match self.random.randint(0, 5):
+            case 0:
+                return {"do": "move", **self.meant(kind), "to": self.goal()}
+            case 1:
+                side = self.pick(("left", "right", "ahead", "behind"))
+                by = {"side": side, "cells": self.random.choice((1, self.random.randint(2, 60)))}
+                return {"do": "move", **self.meant(kind), "by": by}
+            case 2:
+                return {"do": "swap", "first": self.one(kind), "second": self.one(other)}
+            case 3:
+                return {"do": "replace", **self.meant(kind), "by": other}
+            case 4:
+                copied = self.meant(kind)
+                if copied["count"] != "all" and "where" not in copied:
+                    copied["where"] = {"nearest": True}
+                if "nearest" not in copied.get("where", {}) and copied["count"] not in (1, "all"):
+                    copied["count"] = "all"
+                return self.optional({"do": "copy", **copied}, to=self.goal)
+            case _:
+                if self.chance(0.5):
+                    return self.optional({"do": "remove", "kind": kind, "count": "half"}, where=self.lanes)
+                stay = self.random.choice(
+                    ({"nearest": True}, {"lane": "left"}, {"rows": [2, 7]}, {"id": f"{kind}-3"})
+                )
+                return {"do": "remove", "kind": kind, "count": "all", "except": stay}
+
+    def meant(self, kind: str) -> dict[str, Any]:
+        """Things that are on the road: all of a kind, the nearest ones, so many, or one by its id."""
+        match self.random.randint(0, 3):
+            case 0:
+                return self.optional({"kind": kind, "count": "all"}, where=self.lanes)
+            case 1:
+                return {"kind": kind, "count": self.random.randint(1, 9), "where": {"nearest": True}}
+            case 2:
+                return {"kind": kind, "count": 1, "where": {"id": f"{kind}-{self.random.randint(1, 99)}"}}
+            case _:
+                return self.optional({"kind": kind, "count": self.count()}, where=self.lanes)
+
+    def one(self, kind: str) -> dict[str, Any]:
+        """One thing of two that change places."""
+        wheres = ({"nearest": True}, {"id": f"{kind}-7"}, {"lane": 2})
+        return self.optional({"kind": kind}, where=lambda: self.random.choice(wheres))
+
+    def lanes(self) -> dict[str, Any]:
+        """Lanes or rows from one to another, or a place seen from a thing."""
+        low, high = sorted(self.random.sample(range(1, 60), 2))
+        kind = self.pick(KINDS[:4])
+        of = {"id": f"{kind}-5"} if self.chance(0.3) else {"kind": kind, "nearest": True}
+        side = self.pick(("ahead", "behind", "left", "right", "beside"))
+        return self.random.choice(
+            ({"lanes": [low, high]}, {"rows": [low, high]}, {"side": side, "of": of}, {"side": "beside"})
+        )
+
+    def goal(self) -> dict[str, Any]:
+        """Where things are to be."""
+        return self.random.choice(
+            (
+                self.lanes(),
+                {"lane": self.random.choice(("left", "middle", "right", 4))},
+                {"row": 9},
+                {"cell": [2, 11]},
+                {"lane": 3, "row": 8},
+                {"side": self.pick(("ahead", "behind")), "cells": self.random.randint(1, 9)},
+            )
+        )
 
     def scenario(self) -> dict[str, Any]:
         return {"do": "scenario", **self.parts()}
@@ -156,6 +226,8 @@ class Maker:
         do = self.pick(PLAIN)
         keys: dict[str, Any] = {}
         match do:
+            case "rewind" if self.chance(0.5):
+                keys["to"] = self.random.choice(("crash", "episode", "start", self.random.randint(0, 999)))
             case "step" | "rewind":
                 keys["ticks"] = self.random.choice((1, self.random.randint(2, 10_000)))
             case "mode":
@@ -180,6 +252,8 @@ class Maker:
                 keys["style"] = self.pick(tuple(styles()))
             case "record":
                 keys["on"] = self.chance(0.5)
+        if do in ("mode", "drive") and self.chance(0.2):
+            keys["ego"] = self.pick(("av-1", "av-2"))
         return {"do": do, **keys}
 
     def ask(self) -> dict[str, Any]:
@@ -195,6 +269,10 @@ class Maker:
                 "confidence",
                 "maintenance",
                 "help",
+                "setting",
+                "options",
+                "term",
+                "history",
             )
         )
         action: dict[str, Any] = {"do": "ask", "about": about}
@@ -211,7 +289,33 @@ class Maker:
                 action["kind"] = self.pick(KINDS)
             case "metrics" if self.chance(0.8):
                 action["metric"] = self.pick(METRICS)
+            case "setting" | "options" if about == "setting" or self.chance(0.8):
+                action["parameter"] = self.pick((*CHOICES, *NUMBERS, *WHOLE))
+                if about == "setting" and self.chance(0.5):
+                    action["value"] = self.value_of(action["parameter"])
+            case "term":
+                action["term"] = self.pick(get_args(Term))
+            case "history":
+                action |= self.past()
         return action
+
+    def value_of(self, parameter: str) -> Any:
+        """A value that a setting may be asked to have."""
+        if parameter in CHOICES:
+            return self.pick(CHOICES[parameter])
+        return self.random.randint(0, 10**6) if parameter in WHOLE else self.number()
+
+    def past(self) -> dict[str, Any]:
+        """What of the past is asked about."""
+        tick = self.random.randint(0, 5000)
+        what = self.pick(("closest_call", "summary", "since", "between", "seen"))
+        match what:
+            case "between":
+                return {"what": what, "tick": tick, "until": tick + self.random.randint(0, 99)}
+            case "since" | "seen":
+                ticks = {"ticks": self.random.choice((1, self.random.randint(2, 999)))}
+                return {"what": what, **(ticks if self.chance(0.5) else {"tick": tick})}
+        return {"what": what}
 
     def evaluation(self) -> dict[str, Any]:
         match self.random.randint(0, 2):
@@ -242,6 +346,8 @@ class Maker:
 
     def where(self) -> dict[str, Any]:
         """A place whose parts do not contradict each other."""
+        if self.chance(0.2):
+            return {"each": "lane"} if self.chance(0.3) else self.lanes()
         where: dict[str, Any] = {}
         match self.random.randint(0, 3):
             case 0:

@@ -73,10 +73,11 @@ def unharmed(cases: Sequence[Case], seed: int, build_up_s: float = 0.0) -> np.nd
     width = drawn([WIDTH[case.hazard] for case in cases])
     offset = (np.array([CLEARING[case.hazard] for case in cases]) + width) / 2 + MARGIN_M
     harm = np.where(holes, drawn([HARM] * count) / 3.6, 0.0)
+    both = np.array([case.choice is Choice.BRAKE_AND_STEER for case in cases])
     brakes = np.array([case.choice is Choice.BRAKE for case in cases])
-    steers = np.array([case.choice is Choice.STEER for case in cases])
+    steers = np.array([case.choice is Choice.STEER for case in cases]) | both
     sideways = np.where(steers, np.minimum(share * grip, speed**2 / TURNING_RADIUS.middle), 0.0)
-    slowing = np.where(brakes, grip, 0.0)
+    slowing = np.where(brakes, grip, np.where(both, grip * np.sqrt(1 - share**2), 0.0))
 
     well = np.zeros(count, dtype=bool)
     who = np.arange(count)

@@ -65,10 +65,10 @@ def test_undo_moments_and_teaching_are_those_of_the_service(window: Open) -> Non
 def test_what_is_not_understood_comes_back_with_suggestions(window: Open) -> None:
     driver = window()
     before = driver.game.session.sequence
-    exchange = driver.say("please paint the road purple")
+    exchange = driver.say("please add a big red truck")
     assert not exchange.done
     assert driver.game.session.sequence == before
-    assert driver.console.line.text == "please paint the road purple"
+    assert driver.console.line.text == "please add a big red truck"
     first, second, *_ = exchange.offers
     driver.press(pygame.K_TAB)
     assert driver.console.line.text == first
@@ -76,7 +76,7 @@ def test_what_is_not_understood_comes_back_with_suggestions(window: Open) -> Non
     assert driver.console.line.text == second
     driver.press(pygame.K_UP)
     driver.press(pygame.K_UP)
-    assert driver.console.line.text == "please paint the road purple"
+    assert driver.console.line.text == "please add a big red truck"
     driver.press(pygame.K_TAB)
     driver.press(pygame.K_RETURN)
     assert driver.answered().said == first

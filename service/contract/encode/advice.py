@@ -40,6 +40,7 @@ def _prospect_json(prospect: Prospect) -> Json:
         "needs_m": _rounded(prospect.needs_m),
         "meets_kmh": _rounded(prospect.meets_kmh),
         "harm_kmh": _rounded(prospect.harm_kmh),
+        "death": _rounded(prospect.death),
     }
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from service import actions as contract
 from service.contract.encode.decision import options_json
 from sim.explain import Alternatives, Cause, Counterfactual, Explanation, Future
+from sim.explain.avoidance import Avoidable
 from sim.explain.crash import Crash, LastAvoidance
 
 Json = dict[str, Any]
@@ -51,9 +52,18 @@ def crash_json(crash: Crash, texts: Sequence[str]) -> Json:
         "looked_back": crash.looked_back,
         "whole": crash.whole,
         "saving": None if crash.saving is None else _saving_json(crash.saving),
+        "avoidable": _avoidable_json(crash.avoidable),
         **({"missed": crash.missed} if crash.missed else {}),
     }
     return told
+
+
+def _avoidable_json(avoidable: Avoidable) -> Json | None:
+    """None where it is not known; `last` is None where it is proved that nothing could have been done."""
+    if avoidable.last is None:
+        return {"last": None} if avoidable.proved else None
+    last = avoidable.last
+    return {"last": {"tick": last.tick, "made": last.made, "instead": last.instead, "stays": last.stays}}
 
 
 def _saving_json(saving: LastAvoidance) -> Json:

@@ -10,9 +10,9 @@ from typing import Any
 
 from service.actions import dump
 from service.grammar.engine import Language
-from service.grammar.fuzz.mutations import NEUTRAL, Mutations, Mutant
+from service.grammar.fuzz.mutations import NEUTRAL, Mutant, Mutations
 from service.grammar.fuzz.pairs import VERDICTS, WRONG, all_pairs, random_pairs, verdict
-from service.grammar.fuzz.sayings import Saying, Sayings
+from service.grammar.fuzz.sayings import Sayings
 from service.grammar.parse_types import Ambiguous, Understood
 from service.grammar.paths import NEGATION
 from service.grammar.span_patterns import REPAIR

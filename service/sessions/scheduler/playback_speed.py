@@ -1,6 +1,6 @@
 """Playback speed: how fast the clock plays a session, from a quarter of real time to as fast as possible.
 
-It belongs to the clock, not to the world: it is not part of the digest and cannot be undone. It is set by an
+It belongs to the clock, not to the world: it is not part of the digest. It can be undone, and is set by an
 action, so it is in the log and is restored after a restart, in a fork and from a recording. `step_seconds` is
 another thing: the length of a tick in the world.
 """

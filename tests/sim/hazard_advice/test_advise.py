@@ -8,8 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from sim.hazard_advice import Choice, Ending, NoAdviceError, advise, samples
+from sim.hazard_advice.advise import expected_harm
 from sim.hazard_advice.chances import interval
 from sim.hazard_advice.parameters import DISTANCE, FRICTION, LATERAL, REACTION, WIDTH, parameters
+from sim.hazard_advice.physics import braking_left, death_risk
 from sim.types import Kind
 from tests.support.slow_motion import Case, unharmed
 from tools.advice_calibration import AIM, calibration_error, outcomes, questions, table
@@ -57,7 +59,8 @@ def test_any_question_in_range_is_answered_and_always_alike(
     for each in advice.prospects:
         assert 0 <= each.interval[0] <= each.chance <= each.interval[1] <= 1
         assert 0 <= each.meets_kmh <= speed_kmh * 1.0001
-    assert advice.confidence >= max(each.chance for each in advice.prospects) - 0.05
+    if hazard is not Kind.PEDESTRIAN:
+        assert advice.confidence >= max(each.chance for each in advice.prospects) - 0.01
     if hazard is not Kind.POTHOLE:
         assert advice.choice is not Choice.KEEP
         assert advice.prospect(Choice.KEEP).chance == 0
@@ -74,6 +77,38 @@ def test_more_room_never_lowers_a_chance(
         assert wide.chance >= close.chance
 
 
+EFFORT = {Choice.KEEP: 0, Choice.BRAKE: 1, Choice.STEER: 1, Choice.BRAKE_AND_STEER: 1}
+
+
+@settings(max_examples=150, deadline=None)
+@given(KINDS, st.floats(0.5, 300), st.floats(3, 200), WEATHERS, st.floats(1, 1.6), st.floats(1, 1.6))
+def test_nearer_or_faster_is_never_gentler_or_surer(
+    hazard: Kind, distance_m: float, speed_kmh: float, weather: str, nearer: float, faster: float
+) -> None:
+    here = advise(hazard, distance_m, speed_kmh, weather)  # type: ignore[arg-type]
+    worse = advise(hazard, distance_m / nearer, speed_kmh * faster, weather)  # type: ignore[arg-type]
+    assert worse.confidence <= here.confidence
+    assert EFFORT[worse.choice] >= EFFORT[here.choice]
+
+
+def test_before_people_on_foot_the_speed_of_impact_counts() -> None:
+    advice = advise(Kind.PEDESTRIAN, 20, 60)
+    keep, brake = advice.prospect(Choice.KEEP), advice.prospect(Choice.BRAKE)
+    assert brake.death < keep.death
+    assert death_risk(50.0) == pytest.approx(0.083, abs=0.001)  # the study's figure for 50 km/h
+    assert advise(Kind.BARRIER, 20, 60).prospect(Choice.BRAKE).death == 0
+    assert expected_harm(advice.chosen) <= expected_harm(brake)
+
+
+def test_braking_and_steering_share_the_friction() -> None:
+    figures = advise(Kind.BARRIER, 40, 80).figures
+    alone, both = (
+        advise(Kind.BARRIER, 40, 80).prospect(each) for each in (Choice.STEER, Choice.BRAKE_AND_STEER)
+    )
+    assert both.needs_m < alone.needs_m == pytest.approx(figures.steering_m)
+    assert float(braking_left(0.6)) == pytest.approx(0.8)
+
+
 def test_worse_weather_takes_longer_to_stop() -> None:
     dry, wet, snow = (advise(Kind.BARRIER, 60, 60, weather) for weather in ("clear", "rain", "snow"))
     assert dry.figures.stopping_m < wet.figures.stopping_m < snow.figures.stopping_m
@@ -85,12 +120,12 @@ def test_worse_weather_takes_longer_to_stop() -> None:
     ("hazard", "distance_m", "speed_kmh", "choice", "ending"),
     [
         (Kind.POTHOLE, 10, 12, Choice.KEEP, Ending.CROSSES),
-        (Kind.POTHOLE, 2, 40, Choice.KEEP, Ending.HITS),
-        (Kind.POTHOLE, 60, 100, Choice.STEER, Ending.CLEARS),
+        (Kind.POTHOLE, 2, 40, Choice.BRAKE, Ending.HITS),
+        (Kind.POTHOLE, 60, 100, Choice.BRAKE_AND_STEER, Ending.CLEARS),
         (Kind.POTHOLE, 35, 40, Choice.BRAKE, Ending.STOPS),
         (Kind.PEDESTRIAN, 10, 12, Choice.BRAKE, Ending.STOPS),
         (Kind.PEDESTRIAN, 2, 40, Choice.BRAKE, Ending.HITS),
-        (Kind.VEHICLE, 70, 100, Choice.STEER, Ending.CLEARS),
+        (Kind.VEHICLE, 70, 100, Choice.BRAKE_AND_STEER, Ending.CLEARS),
     ],
 )
 def test_what_is_advised(

@@ -10,7 +10,7 @@
 import { logChange, logEvents, logTick } from "../talk/journal.js";
 import { t } from "./texts.js";
 import { NO_STEPS, stepsAfter } from "./undoStack.js";
-import { answerExchange, beginExchange, endUnanswered, refuseExchange } from "../talk/exchanges.js";
+import { answerExchange, beginExchange, endUnanswered, refuseExchange, withQuestion } from "../talk/exchanges.js";
 import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
 import { INITIAL_VIEWS, viewsAfter } from "../ui/views.js";
 import { worldAfter, worldOf } from "../road/world.js";
@@ -248,6 +248,7 @@ function afterHello(state, hello) {
     ...state,
     ...(note === null ? {} : { notice: { text: note }, announcement: note }),
     session: hello.session.id,
+    talk: withQuestion(state.talk, hello.session.pending),
     trouble: null,
     world: worldOf(hello.state),
     prior: null,

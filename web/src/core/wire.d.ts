@@ -137,12 +137,19 @@ export interface Answer {
 /** A question; which keys belong to which `about` is the contract's table. */
 export interface Ask {
   do: "ask";
-  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help";
+  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending";
   move?: Move | null;
   tick?: number | null;
   change?: Action[] | null;
   kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
   metric?: "crashes" | "successes" | "success_rate" | "steps" | "moves" | "distance" | null;
+  parameter?: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed" | "view" | "preference" | "road" | "layout" | null;
+  value?: number | string | null;
+  term?: "arrived" | "astar" | "attentive" | "av" | "barrier" | "bfs" | "camera" | "cautious" | "certificate" | "closest_call" | "columns" | "confidence" | "continuous" | "cooperative" | "courtesy" | "crash" | "detection_sensitivity" | "dijkstra" | "digest" | "dwa" | "dynamics" | "ego" | "episode" | "false_positive_rate" | "fastest" | "forecast" | "fusion" | "grid" | "layout" | "lidar" | "occupancy" | "pedestrian" | "percept" | "perfect" | "planner" | "playback_speed" | "pothole" | "pothole_probability" | "preference" | "priority" | "radar" | "regret" | "rl" | "rows" | "rss" | "rules" | "safety_buffer" | "seed" | "sensor" | "sensor_noise" | "sensor_range_m" | "smooth_ride" | "avoid_potholes" | "spawn_probability" | "step_seconds" | "stuck" | "success_rate" | "target_speed_kmh" | "tick" | "time_of_day" | "traffic" | "ttc" | "vehicle" | "weather" | "what_if" | null;
+  what?: "closest_call" | "summary" | "since" | "between" | "seen" | null;
+  until?: number | null;
+  ticks?: number | null;
+  count?: number | null;
 }
 
 /** The first message of a socket where the service asks for a key: the key, or a ticket. */
@@ -197,6 +204,12 @@ export interface ChangedMessage {
   event: string;
 }
 
+/** Small talk: one short line in return, and nothing else. */
+export interface Chat {
+  do: "chat";
+  kind: "greeting" | "farewell" | "thanks" | "praise" | "apology" | "okay" | "complaint" | "identity" | "joke";
+}
+
 /** The choices, the one of least effort first. */
 export type Choice = "keep" | "brake" | "steer";
 
@@ -239,6 +252,15 @@ export interface ConfigChanged {
   /** What was done, in a sentence or two. */
   reply: string;
   sequence: number;
+}
+
+/** Put another thing like it on the road, for each of some things: beside it, or where it is said. */
+export interface Copy {
+  do: "copy";
+  kind: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av";
+  count: number | "all";
+  where?: Where | null;
+  to?: Where | null;
 }
 
 /** A word that was read as another. */
@@ -297,6 +319,11 @@ export interface Drive {
   do: "drive";
   move: Move;
   ego?: string | null;
+}
+
+/** Drop the question that is pending, so that nothing answers it any more. */
+export interface Drop {
+  do: "drop";
 }
 
 /** How a run ends, if nothing more is said. */
@@ -381,6 +408,14 @@ export interface Forget {
   phrase: string;
 }
 
+/** A road, or a change of the present one, that is looked for and measured (`sim.goals`). */
+export interface Goal {
+  do: "goal";
+  goal: "harder" | "easier" | "surprise" | "hard_but_solvable" | "separates" | "one_lane_free";
+  planners?: ["rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative", "rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative"] | null;
+  degree?: "little" | "lot" | null;
+}
+
 /** The session was deleted; the last message. */
 export interface GoneMessage {
   type: "gone";
@@ -463,6 +498,13 @@ export interface JudgedDecision {
 
 /** What a thing on the road is. */
 export type Kind = "pothole" | "barrier" | "vehicle" | "pedestrian" | "av";
+
+/** The thing that a place is described from: the nearest of a kind, or one by its id. */
+export interface Landmark {
+  kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
+  nearest?: true | null;
+  id?: string | null;
+}
 
 /** What can be said, or how a sentence that was begun could go on. */
 export interface LanguageGuide {
@@ -563,6 +605,16 @@ export interface MoveCounts {
   stay: number;
 }
 
+/** Put things that are on the road somewhere else on it; they stay what they are. */
+export interface MoveThings {
+  do: "move";
+  kind: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av";
+  count: number | "all";
+  where?: Where | null;
+  to?: Where | null;
+  by?: Shift | null;
+}
+
 /** An obstacle vehicle or a pedestrian. */
 export interface Mover {
   id: string;
@@ -635,6 +687,12 @@ export interface NewSession {
 /** An empty object. */
 export type NoFields = { [key: string]: unknown };
 
+/** One thing of a kind: the nearest one at a place. */
+export interface OneThing {
+  kind: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av";
+  where?: Where | null;
+}
+
 /** One move as the planner saw it. */
 export interface Option {
   move: Move;
@@ -680,6 +738,15 @@ export interface Parsed {
 /** Stop the clock. */
 export interface Pause {
   do: "pause";
+}
+
+/** A question of the service that the next sentence may answer. */
+export interface PendingQuestion {
+  /** What was said. */
+  text: string;
+  question: string;
+  /** To answer, say the number of one or some of its words; "never mind" drops the question. */
+  choices: ChoiceModel[];
 }
 
 /** Asks for a `pong`. */
@@ -741,6 +808,8 @@ export interface ProblemDocument {
   understood?: string[] | null;
   suggestions?: string[] | null;
   choices?: ChoiceModel[] | null;
+  /** The question, where the session waits for the answer. */
+  pending?: PendingQuestion | null;
   /** The session's sequence number, if it was changed meanwhile. */
   sequence?: number | null;
 }
@@ -828,17 +897,28 @@ export interface Recording {
   digest: string;
 }
 
-/** Say again what was undone last. */
+/** Say again what was undone last (`steps` changes, by default one). */
 export interface Redo {
   do: "redo";
+  steps?: number | "all" | null;
 }
 
-/** Take `count` things of a kind (or `"all"`) off the road. */
+/** Take `count` things of a kind (or `"all"`, or `"half"` of them) off the road. */
 export interface Remove {
   do: "remove";
   kind: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | "everything";
+  count: number | "all" | "half";
+  where?: Where | null;
+  except?: Where | null;
+}
+
+/** Put things of another kind (`by`) in the places of things. */
+export interface Replace {
+  do: "replace";
+  kind: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av";
   count: number | "all";
   where?: Where | null;
+  by: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av";
 }
 
 /** The present episode from its start, on the road it started with. */
@@ -858,10 +938,11 @@ export interface Resume {
   do: "resume";
 }
 
-/** Go back some ticks. */
+/** Go back some ticks, or to a tick, the latest crash, the start of the episode or of the session. */
 export interface Rewind {
   do: "rewind";
-  ticks: number;
+  ticks?: number | null;
+  to?: number | "crash" | "episode" | "start" | null;
 }
 
 /** Where to go back to. */
@@ -982,6 +1063,8 @@ export interface Session {
   rules_note: string | null;
   /** What to say for a road like this one; null where no sentence describes it. */
   sentence: string | null;
+  /** The question that the session asked last, while nobody has answered it. */
+  pending?: PendingQuestion | null;
   /** Of a fork, or a session that a link opened; else null. */
   parent: Parent | null;
   links: { [key: string]: string };
@@ -1039,6 +1122,12 @@ export interface SetMode {
   do: "mode";
   mode: Mode;
   ego?: string | null;
+}
+
+/** So many cells to one side. */
+export interface Shift {
+  side: "ahead" | "behind" | "left" | "right";
+  cells?: number;
 }
 
 /** Show a view. */
@@ -1128,6 +1217,12 @@ export type StreamMessage = HelloMessage | TickMessage | ChangedMessage | StateM
 
 export type StreamRequest = Command | Actions | Ping | Subscribe | Unsubscribe;
 
+/** A named set of preferences and settings (`prompts/styles.yaml`). */
+export interface Style {
+  do: "style";
+  style: string;
+}
+
 /** Asks for pictures as well; a second one takes the place of the first. */
 export interface Subscribe {
   type: "subscribe";
@@ -1145,6 +1240,13 @@ export interface SubscribedMessage {
   fps: number;
   /** Pixels of the longer side. */
   side: number;
+}
+
+/** Let two things change places. */
+export interface Swap {
+  do: "swap";
+  first: OneThing;
+  second: OneThing;
 }
 
 /** A phrase that was taught, and what it means. */
@@ -1231,9 +1333,10 @@ export interface TypedActions {
   dry_run?: boolean;
 }
 
-/** Take back the latest change, as if it had never been said. */
+/** Take back the latest changes (`steps`, by default one), as if they had never been said. */
 export interface Undo {
   do: "undo";
+  steps?: number | "all" | null;
 }
 
 /** Asks for no more pictures. */
@@ -1257,14 +1360,18 @@ export interface Vehicle {
 /** A place, by any of its parts; parts combine ("15 m ahead in the left lane"). */
 export interface Where {
   lane?: "left" | "middle" | "right" | number | null;
+  lanes?: [number, number] | null;
   row?: number | null;
+  rows?: [number, number] | null;
   cell?: [number, number] | null;
-  side?: "ahead" | "behind" | "left" | "right" | null;
+  side?: "ahead" | "behind" | "left" | "right" | "beside" | null;
   distance_m?: number | null;
   cells?: number | null;
   nearest?: true | null;
   id?: string | null;
+  each?: "lane" | null;
+  of?: Landmark | null;
 }
 
 /** One action of the language contract. */
-export type Action = Add | Remove | SetCount | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Evaluate | FindWorst | Advise | Save | Load | Record | Teach | Forget;
+export type Action = Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Goal | Style | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Chat | Evaluate | FindWorst | Advise | Save | Load | Record | Teach | Forget | Drop;

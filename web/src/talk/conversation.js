@@ -6,7 +6,7 @@ import { onDemand } from "../core/lazy.js";
 import { t } from "../core/texts.js";
 import { standingOf } from "../core/undoStack.js";
 import { LAYOUTS, layoutName } from "../core/words.js";
-import { shown } from "./exchanges.js";
+import { openQuestion, shown } from "./exchanges.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Scenario } from "../core/wire.js" */
@@ -53,6 +53,7 @@ export function createTalk(host, page) {
 /** @param {State} state @param {Page} page @param {ExchangeTemplate | null} exchangeTemplate */
 function template({ talk, steps }, page, exchangeTemplate) {
   const exchanges = shown(talk);
+  const open = openQuestion(talk);
   return html`<div class="exchanges" tabindex="0" role="log" aria-label=${t("talk.label")} aria-live="off">
     ${
       exchanges.length === 0 || exchangeTemplate === null
@@ -62,7 +63,7 @@ function template({ talk, steps }, page, exchangeTemplate) {
             ({ id }) => id,
             (exchange) => {
               const sequence = exchange.result?.changes.length ? exchange.result.sequence : undefined;
-              return exchangeTemplate(exchange, page, standingOf(steps, sequence));
+              return exchangeTemplate(exchange, page, { ...standingOf(steps, sequence), open: exchange.id === open });
             },
           )
     }

@@ -14,14 +14,15 @@ import { changesOf } from "./exchanges.js";
 /**
  * @param {Exchange} exchange
  * @param {Page} page
- * @param {{undos: number, taken: boolean}} standing  how many undos would take it back, 0 where none would; whether it was
+ * @param {{undos: number, taken: boolean, open: boolean}} standing  how many undos would take it back, 0 where none would;
+ *     whether it was; whether its question waits for an answer
  */
-export function exchangeTemplate({ id, said, standing, result, problem }, page, { undos, taken }) {
+export function exchangeTemplate({ id, said, standing, result, problem }, page, { undos, taken, open }) {
   return html`<article class="exchange" data-standing=${problem?.choices?.length ? "asked" : standing} data-id=${id}>
     <p class="said">${sentence(said, problem?.unparsed ?? [])}</p>
     ${standing === "pending" ? html`<p class="reply pending"><span class="dots" role="img" aria-label=${t("exchange.waiting")}></span></p>` : nothing}
     ${standing === "unknown" ? html`<p class="reply">${t("exchange.lost")}</p>` : nothing}
-    ${result ? resultTemplate(result, page, undos, taken) : nothing} ${problem ? problemTemplate(problem, page) : nothing}
+    ${result ? resultTemplate(result, page, undos, taken) : nothing} ${problem ? problemTemplate(problem, page, open) : nothing}
   </article>`;
 }
 
@@ -80,20 +81,34 @@ function changeTemplate(change) {
   return html`<li class="change">${name} <span class="before">${before}</span> → <span class="after">${after}</span></li>`;
 }
 
-/** @param {Problem} problem @param {Page} page */
-function problemTemplate(problem, page) {
+/** @param {Problem} problem @param {Page} page @param {boolean} open */
+function problemTemplate(problem, page, open) {
   const errors = (problem.errors ?? []).filter(({ message }) => message && message !== problem.detail);
   const choices = problem.choices ?? [];
   const suggestions = problem.suggestions ?? [];
   return html`<p class="reply">${problem.detail || problem.title}</p>
     ${errors.length > 0 ? html`<ul class="errors">${errors.map(({ message }) => html`<li>${message}</li>`)}</ul>` : nothing}
-    ${choices.length > 0 ? offers(t("exchange.choices"), choices.map(({ text, actions }) => offer(text, () => page.act(actions, text)))) : nothing}
+    ${
+      choices.length > 0
+        ? offers(t("exchange.choices"), [
+            ...choices.map(({ text, actions }) => offer(text, () => page.act(actions, text))),
+            open ? dropButton(page) : nothing,
+          ])
+        : nothing
+    }
     ${
       suggestions.length > 0
         ? html`<p class="offers-title">${t("exchange.could_say")}</p>
             ${offers(t("exchange.suggestions"), suggestions.map((text) => offer(text, () => page.say(text))))}`
         : nothing
     }`;
+}
+
+/** Drops the question that is open. @param {Page} page */
+function dropButton(page) {
+  const label = t("exchange.drop");
+  const drop = () => page.act([{ do: "drop" }], label, true);
+  return html`<button class="button quiet small" type="button" title=${label} aria-label=${label} @click=${drop}>✕</button>`;
 }
 
 /** @param {string} name @param {unknown[]} buttons */

@@ -2,6 +2,7 @@
 /** What was said in this page and what came back, as a list of exchanges. */
 
 /** @import { CommandResult, Problem } from "../core/protocol.js" */
+/** @import { PendingQuestion } from "../core/wire.js" */
 
 /**
  * @typedef {object} Exchange
@@ -30,6 +31,46 @@ export function answerExchange(talk, id, result) {
 /** @param {Exchange[]} talk @param {string} id @param {Problem} problem @returns {Exchange[]} */
 export function refuseExchange(talk, id, problem) {
   return replaced(talk, id, { standing: "refused", problem });
+}
+
+/**
+ * The id of the exchange whose question waits for an answer; null where none does.
+ * What was said since drops it, unless it was refused or asked for the question; of buttons only a choice or the ✕.
+ * @param {Exchange[]} talk
+ * @returns {string | null}
+ */
+export function openQuestion(talk) {
+  /** @type {Exchange | null} */ let open = null;
+  for (const exchange of talk) {
+    if (exchange.problem?.pending) open = exchange;
+    else if (open !== null && exchange.standing === "done" && endsQuestion(exchange, open)) open = null;
+  }
+  return open?.id ?? null;
+}
+
+/** @param {Exchange} exchange @param {Exchange} open */
+function endsQuestion({ result, quiet }, open) {
+  const actions = result?.actions ?? [];
+  if (actions.some(({ do: verb }) => verb === "drop")) return true;
+  const done = JSON.stringify(actions);
+  if ((open.problem?.choices ?? []).some((choice) => JSON.stringify(choice.actions) === done)) return true;
+  return !quiet && result?.text !== null && result?.answer?.about !== "pending";
+}
+
+/**
+ * A question that waited when the page was opened, as if it had been asked here.
+ * @param {Exchange[]} talk
+ * @param {PendingQuestion | null | undefined} pending
+ * @returns {Exchange[]}
+ */
+export function withQuestion(talk, pending) {
+  if (!pending || openQuestion(talk) !== null) return talk;
+  const { text, question, choices } = pending;
+  /** @type {Problem} */
+  const problem = { type: "/problems/ambiguous", title: "", status: 409, detail: question, errors: [], choices, pending };
+  /** @type {Exchange} */
+  const exchange = { id: "pending", said: text, quiet: false, standing: "refused", result: null, problem };
+  return [...talk.filter(({ id }) => id !== exchange.id), exchange];
 }
 
 /**

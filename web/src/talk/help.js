@@ -17,7 +17,7 @@ const MOST_EXAMPLES = 3;
 /** Kinds of sentences under people's headings, in the order of a first hour; others follow under their own name. */
 const HEADINGS = /** @type {[string, string[]][]} */ ([
   ["roads", ["scenario", "reset"]],
-  ["put", ["add", "set_count"]],
+  ["put", ["add", "set_count", "move", "swap", "replace", "copy"]],
   ["take", ["remove"]],
   ["why", ["ask why", "ask why_not", "ask what_if"]],
   ["what", ["ask status", "ask scene", "ask next", "ask metrics", "ask confidence"]],

@@ -1,0 +1,139 @@
+"""What a decision hangs on beside a minimal sufficient set: what flips it by itself, and what held what.
+
+A set that is enough need not hold everything without which the move would be another one. So each thing
+that may have a part is taken away by itself as well. And what stood in the way may have stood there only
+because of another thing: then the other one is the cause, and the chain between them is told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from sim.explain.facts import Link
+from sim.explain.intervention import Intervention
+from sim.explain.relevance import having_part, tried_singly
+from sim.plan import Decision, Measure, Option, traits_of
+from sim.types import MOVES
+
+MOST_BEHIND = 3
+"""So many times what comes to stand in the way once others are gone is taken away too."""
+MOST_TRIED = 5
+"""Things of which every part is tried."""
+MOST_RUNS = 6
+"""Runs in which further things are tried in groups."""
+MOST_HELD = 3
+"""Things in the way of which it is looked for what held them there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """The rest of what a decision hangs on."""
+
+    groups: dict[str, tuple[str, ...]]
+    """by name, what must go together for the decision to flip: of names that are not in the sufficient set"""
+    chain: tuple[Link, ...]
+    untried: int
+    """things that may have a part and were not tried by themselves"""
+
+    @staticmethod
+    def of(
+        rerun: Intervention,
+        names: Sequence[str],
+        hindered: Sequence[Option],
+        known: Mapping[str, tuple[str, ...]],
+    ) -> Rest:
+        """`known`: the sufficient set with its groups; `hindered`: the options before the one taken."""
+        fact = rerun.decision.move
+        traits = traits_of(rerun.decision.planner)
+        parts = having_part(rerun.percept, traits, list(names))
+        most = tried_singly(traits)
+        single = {name for name in parts[:most] if rerun.without([name]) is not fact}
+        further = Flipping(rerun)
+        single.update(further.among(parts[most:]))
+        groups = {name: (name,) for name in parts if name in single and name not in known}
+        settled = {*single, *(each for group in known.values() for each in group), *known}
+        chain: list[Link] = []
+        met = [(name, option) for option in hindered for name in option.causes if name not in settled]
+        for name, option in met[:MOST_HELD]:
+            by = [other for other in parts if other in single or other in known]
+            link = _held_by(rerun, name, option, by)
+            if link is not None:
+                chain.append(link)
+            elif name not in groups and (pair := _grouped(rerun, name, option, parts[:most], single)):
+                groups[name] = pair
+        return Rest(groups, tuple(chain), further.untried)
+
+
+class Flipping:
+    """What flips a decision by itself, among many things and in few runs.
+
+    Of a planner that weighs costs, things are taken away in groups. With less in the way no way gets dearer,
+    so where even without the whole group no other move is as good as the one taken, none of it flips it alone.
+    That leaves out what a mover does to others: those are looked for among the nearest, one by one.
+    """
+
+    def __init__(self, rerun: Intervention) -> None:
+        """`rerun`: the decision."""
+        self._rerun = rerun
+        self._runs = MOST_RUNS
+        self.untried = 0
+        """things that were not looked at, for want of runs"""
+
+    def among(self, names: Sequence[str]) -> list[str]:
+        """Those of the names that flip the decision by themselves."""
+        if not names:
+            return []
+        if self._runs <= 0 or self._rerun.decision.measure is Measure.RANK:
+            self.untried += len(names)
+            return []
+        self._runs -= 1
+        without = self._rerun.decision_without(names)
+        if not self._another_is_as_good(without):
+            return []
+        if len(names) == 1:
+            return [names[0]] if without.move is not self._rerun.decision.move else []
+        half = len(names) // 2
+        return self.among(names[:half]) + self.among(names[half:])
+
+    def _another_is_as_good(self, without: Decision) -> bool:
+        made, best = self._rerun.decision.move, self._rerun.decision.chosen.cost
+        if best is None or without.move is not made:
+            return True
+        before = MOVES[: MOVES.index(made)]
+        return any(
+            option.cost is not None
+            and (option.cost < best or (option.cost == best and option.move in before))
+            for option in without.options
+            if option.move is not made
+        )
+
+
+def _held_by(rerun: Intervention, name: str, option: Option, by: Iterable[str]) -> Link | None:
+    """Because of which of these a thing stood in the way of a move."""
+    for other in by:
+        without = rerun.decision_without([other])
+        if name not in without.option(option.move).causes:
+            return Link(name, other, option.move)
+    return None
+
+
+def _grouped(
+    rerun: Intervention, name: str, option: Option, parts: Sequence[str], single: Iterable[str]
+) -> tuple[str, ...] | None:
+    """A thing in the way of a move, and the fewest that must go with it for the decision to flip."""
+    fact = rerun.decision.move
+    others = (other for other in parts if other != name and other not in single)
+    pair = next((other for other in others if rerun.without([name, other]) is not fact), None)
+    if pair is not None:
+        return name, pair
+    gone = list(option.causes)
+    for _ in range(MOST_BEHIND):
+        gone += [each for each in rerun.decision_without(gone).option(option.move).causes if each not in gone]
+    if rerun.without(gone) is fact or len(gone) > MOST_TRIED:
+        return None
+    sizes = range(1, len(gone) + 1)
+    found = (part for size in sizes for part in combinations(gone, size) if rerun.without(part) is not fact)
+    smallest = next(found)
+    return smallest if name in smallest else None

@@ -1,0 +1,141 @@
+"""The smallest change of the road, or of the wishes, after which a move is made: by size, within a bound.
+
+A change is made of edits: a thing taken away, a cell beside the vehicle blocked, another wish. All changes of
+one edit are tried, then of two, then of three, the most telling first; `SmallestChange.searched` says up to
+which size all were tried. A larger change that is known to work is cut down to a part of which nothing can be
+spared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Final, get_args
+
+from sim.actions import Prefer, Wish, WorldAction
+from sim.explain.factors import is_factor
+from sim.explain.intervention import Intervention, wall
+from sim.explain.relevance import having_part
+from sim.plan import Measure, traits_of
+from sim.session.errors import EditError
+from sim.types import Move
+
+MOST_EDITS: Final = 3
+"""Edits of the largest change that is looked for."""
+TRIES_QUICK: Final = 400
+"""Changes that are tried for an answer where a decision takes a few hundredths of a millisecond."""
+TRIES_SEARCHING: Final = 20
+"""The same where a decision searches to the goal."""
+MOST_CUT: Final = 6
+"""Edits of a change of which every part is tried."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """One thing that is changed: `gone` is taken away, or `actions` are done."""
+
+    gone: str = ""
+    actions: tuple[WorldAction, ...] = ()
+
+    @property
+    def of_wishes(self) -> bool:
+        """Whether it changes wishes or settings; a change has at most one of these."""
+        return is_factor(self.gone) or any(isinstance(action, Prefer) for action in self.actions)
+
+
+Edits = tuple[Edit, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SmallestChange:
+    """What was found."""
+
+    edits: Edits | None
+    """None where no change was found"""
+    searched: int
+    """edits up to which every change was tried, those found not counted"""
+    tried: int
+    """changes that were tried"""
+
+
+class ChangeSearch:
+    """Changes that lead to one move, of one decision."""
+
+    def __init__(self, rerun: Intervention, foil: Move, names: Sequence[str]) -> None:
+        """`names`: everything that was seen and wished, the most telling first."""
+        self._rerun = rerun
+        self._foil = foil
+        traits = traits_of(rerun.decision.planner)
+        self._most = TRIES_QUICK if traits.quick else TRIES_SEARCHING
+        self._edits = list(self._single_edits(having_part(rerun.percept, traits, list(names))))
+        self._known: dict[frozenset[Edit], Move | None] = {}
+
+    @property
+    def tried(self) -> int:
+        """Changes tried so far."""
+        return len(self._known)
+
+    def reaches(self, edits: Iterable[Edit]) -> bool:
+        """Whether the move is made after these edits."""
+        return self.made(edits) is self._foil
+
+    def made(self, edits: Iterable[Edit]) -> Move | None:
+        """The move after these edits; None where they cannot be made."""
+        edits = tuple(edits)
+        key = frozenset(edits)
+        if key not in self._known:
+            change, undetected = self.change(edits)
+            try:
+                self._known[key] = self._rerun.after(change, undetected)
+            except EditError:  # something is there that was not seen
+                self._known[key] = None
+        return self._known[key]
+
+    def change(self, edits: Iterable[Edit]) -> tuple[tuple[WorldAction, ...], tuple[str, ...]]:
+        """The actions of these edits, and what must go undetected since no action takes it away."""
+        edits = tuple(edits)
+        gone = [edit.gone for edit in edits if edit.gone]
+        done = sorted(
+            (action for edit in edits for action in edit.actions),
+            key=lambda action: not isinstance(action, Prefer),
+        )
+        return (*self._rerun.removal(gone), *done), self._rerun.phantoms(gone)
+
+    def smallest(self, fallback: Iterator[Edits]) -> SmallestChange:
+        """The smallest change that is found; `fallback`: larger ones to cut down where the tries run out."""
+        searched, most = 0, self._most
+        for size in range(1, MOST_EDITS + 1):
+            for edits in combinations(self._edits, size):
+                if sum(edit.of_wishes for edit in edits) > 1:
+                    continue
+                if self.tried >= most:
+                    return self._cut_down(fallback, searched)
+                if self.reaches(edits):
+                    return SmallestChange(edits, searched, self.tried)
+            searched = size
+        return self._cut_down(fallback, searched)
+
+    def _cut_down(self, fallback: Iterator[Edits], searched: int) -> SmallestChange:
+        for edits in fallback:
+            if self.reaches(edits):
+                sizes = range(1, len(edits) if len(edits) <= MOST_CUT else 0)
+                parts = (part for size in sizes for part in combinations(edits, size))
+                return SmallestChange(next(filter(self.reaches, parts), edits), searched, self.tried)
+        return SmallestChange(None, searched, self.tried)
+
+    def _single_edits(self, names: list[str]) -> Iterator[Edit]:
+        """What is in the move's way first, then the cells that come before it, wishes, all other things."""
+        rerun, decision = self._rerun, self._rerun.decision
+        option = decision.option(self._foil)
+        first = [name for name in names if name in option.causes]
+        yield from (Edit(gone=name) for name in first)
+        world = rerun.state.world
+        own = world.road.cell(rerun.percept.ego)
+        for each in decision.options:
+            if each.cell not in (None, own, option.cell) and each.verdict == "free":
+                assert each.cell is not None
+                yield Edit(actions=(wall(world, each.cell),))
+        if decision.measure is Measure.COST:
+            yield from (Edit(actions=(Prefer(preference=wish),)) for wish in get_args(Wish))
+        yield from (Edit(gone=name) for name in names if name not in first)
