@@ -56,7 +56,7 @@ EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
         "same_thing": ("bad-place", ("id",)),
         "same_kind": ("bad-place", ("kind",)),
         "each_is_for_new_things": ("bad-place", ()),
-        "would_fall_off": ("does-not-fit", ("count", "setting")),
+        "would_fall_off": ("does-not-fit", ("lost", "setting")),
         "too_few": ("too-few", ("count", "kind", "place")),
         "other_vehicles_not_available": ("not-available", ()),
         "scenario_not_available": ("not-available", ("problem",)),

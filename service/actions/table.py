@@ -164,7 +164,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     Scenario: _world(ModelUse.CONFIRMED, gathers=True, loses=True),
     Reset: _world(ModelUse.CONFIRMED, loses=True),
     SetMode: _world(ModelUse.UNCONFIRMED, tried=True, amendable=True),
-    Drive: _world(ModelUse.UNCONFIRMED, amendable=True),
+    Drive: _world(ModelUse.UNCONFIRMED, amendable=True, additive=True),
     Set: _world(ModelUse.UNCONFIRMED, amendable=True),
     Adjust: _world(ModelUse.UNCONFIRMED, amendable=True, additive=True),
     Prefer: _world(ModelUse.UNCONFIRMED, amendable=True),

@@ -17,6 +17,10 @@ COMMANDS: Final = {
         "service.cli.language_eval",
         "Measure how well sentences are understood. Exits with 1 when one was understood wrongly.",
     ),
+    "language-fuzz": (
+        "service.cli.language_fuzz",
+        "Change and join known sentences by program. Exits with 1 when one means what it does not say.",
+    ),
     "say": (
         "service.cli.say",
         "Say something to a session and print the reply. Exits with 1 when it is refused.",

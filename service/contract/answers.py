@@ -6,6 +6,7 @@ from service.contract.advice import Advice, AdviceOption, AdvicePhysics, AdviceQ
 from service.contract.command import (
     Answer,
     Change,
+    ChoiceModel,
     CommandResult,
     ConfigChanged,
     Correction,
@@ -17,7 +18,7 @@ from service.contract.decision import BlockedMove, BriefDecision, Decision, Deci
 from service.contract.forecast import Expected, ExpectedTick, Judged, JudgedDecision
 from service.contract.health import Health, Lateness, Ready
 from service.contract.language import IntentGuide, LanguageGuide, Preview, Saying, TaughtPhrase
-from service.contract.problem import ChoiceModel, FieldProblemModel, ProblemDocument
+from service.contract.problem import FieldProblemModel, ProblemDocument
 from service.contract.session import (
     Link,
     MomentPage,

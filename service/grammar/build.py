@@ -212,7 +212,7 @@ class _Maker:
         """The kind that things become; "a cone" is what one becomes, "cones" what many become."""
         things = [thing for edge in self._filled.of("meant") for thing in edge.sense.value]
         (edge,) = self._filled.of("becomes")
-        if edge.sense.value.many is (len(things) == 1 and things[0].count == 1):
+        if (len(things) != 1 or things[0].count != 1) not in edge.sense.value.many:
             raise CannotBuild("one becomes one, many become many")
         return str(edge.sense.value.kind)
 

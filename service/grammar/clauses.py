@@ -8,7 +8,7 @@ potholes"). Negated fragments are understood and then left out.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -146,9 +146,16 @@ class Divider:
 
     def _or_apart(self, clause: Clause, parts: Sequence[Fragment], context: Context) -> Clause:
         """A listing, with what its parts are as clauses of their own; without, where they are none."""
-        apart = self._requests(parts, range(1, len(parts)), context)
-        apart = apart and [one for each in apart for one in each.instead or (each,)]
-        if apart is None or _same(apart, clause) or not _optional(clause, apart):
+        own = [self._composition.alone(part) for part in parts]
+        apart = [
+            Clause(part.start, part.end, *found, after=part.after)
+            for part, found in zip(parts, own, strict=True)
+            if found is not None
+        ]
+        if len(apart) < len(parts):
+            found = self._requests(parts, range(1, len(parts)), context)
+            apart = [one for each in found or () for one in each.instead or (each,)]
+        if not apart or _same(apart, clause) or not _optional(clause, apart):
             return clause
         return replace(clause, instead=tuple(apart))
 
@@ -304,6 +311,9 @@ class Divider:
         said = list(self._lattice.between(part.start, part.end))
         if any(edge.concept.startswith("v.") for edge in said):
             return False
+        if not any(isinstance(edge.sense.value, Amount) for edge in said):
+            keys = _places(said)
+            return bool(keys) and not keys <= context.places
         kinds = {edge.sense.value.of for edge in said if isinstance(edge.sense.value, Amount)}
         whole = context.noun is not None and context.noun.concept.endswith(_WHOLE)
         return context.everything or (
@@ -331,6 +341,17 @@ def _context(clause: Clause, before: Context) -> Context:
         everything,
         placed=placed,
         asks=asks(clause.actions),
+        places=_places(clause.filled.slots),
+    )
+
+
+def _places(edges: Iterable[Edge]) -> frozenset[str]:
+    """By what the places among some edges are given: "lane", "row", the concept of any other."""
+    placed = [edge for edge in edges if edge.concept in _PLACED]
+    return frozenset(
+        key
+        for edge in placed
+        for key in (edge.sense.value if isinstance(edge.sense.value, dict) else (edge.concept,))
     )
 
 

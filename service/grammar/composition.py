@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 from service.actions.table import verbs_where
-from service.grammar.fragments import BUT, PAUSE, STOP, Fragment
+from service.grammar.fragments import BUT, PAUSE, STOP, THEN, Fragment
 from service.grammar.frames import Filled
 from service.grammar.noun_phrases import Amount
 from service.grammar.paths import Stretch
@@ -68,7 +68,7 @@ class Composition:
 
     def heads(self, joint: Filled, parts: Sequence[Fragment]) -> list[int]:
         """Which parts of a listing after the first are requests of their own."""
-        kept = [_kept(joint, parts, at) for at in range(len(parts))]
+        kept = [self._kept(joint, parts, at) for at in range(len(parts))]
         return [
             at
             for at, part in enumerate(parts)
@@ -79,13 +79,16 @@ class Composition:
         """Whether a listing gives one of its parts another meaning than it has alone."""
         verbs = {action["do"] for action in joint[1]}
         for at, part in enumerate(parts):
-            own = None if _kept(joint[0], parts, at) else self.alone(part)
+            own = None if self._kept(joint[0], parts, at) else self.alone(part)
             if own is None:
                 continue
-            if asks(own[1]) != asks(joint[1]):
+            verb = self.verb_of_its_own(part) is not None
+            if asks(own[1]) != asks(joint[1]) and (verb or not asks(own[1])):
                 return True
             apart = at > 0 and part.after in (BUT, STOP)
-            says = self.verb_of_its_own(part) is not None and verbs.isdisjoint(a["do"] for a in own[1])
+            says = verb and verbs.isdisjoint(action["do"] for action in own[1])
+            if part.after == STOP and at > 0 and any(action["do"] == _SCENARIO for action in own[1]):
+                return True
             if (apart or says or _says_what_to_do(own[0])) and not done_by(own[1], joint[1]):
                 return True
         return False
@@ -99,7 +102,8 @@ class Composition:
         own = self._alone(part, verbless=True)
         if own is None or own[1] == leaning[1]:
             return None
-        apart = part.after == STOP or _says_what_to_do(own[0]) or asks(own[1]) != asks(leaning[1])
+        apart = part.after in (STOP, THEN) or _says_what_to_do(own[0])
+        apart = apart or (asks(leaning[1]) and not asks(own[1]))
         return own if apart else None
 
     def also_leans(self, part: Fragment, own: Reading, context: Context) -> Reading | None:
@@ -108,6 +112,10 @@ class Composition:
             return None
         leaning = self._matcher.match(self._stretches.make(part.start, part.end, context), verbless=False)
         return leaning if leaning is not None and asks(leaning[1]) else None
+
+    def _kept(self, joint: Filled, parts: Sequence[Fragment], at: int) -> bool:
+        """Whether the frame declares that words which are a request elsewhere belong to it."""
+        return _belongs(joint, parts, at) and (at > 0 or self.verb_of_its_own(parts[0]) is None)
 
     def _alone(self, part: Fragment, *, verbless: bool) -> Reading | None:
         key = part.start, part.end, verbless
@@ -123,8 +131,8 @@ def asks(actions: Sequence[Mapping[str, Any]]) -> bool:
     return asks(actions)
 
 
-def _kept(joint: Filled, parts: Sequence[Fragment], at: int) -> bool:
-    """Whether the frame declares that words which are a request elsewhere belong to it: "at tick 12, why …"."""
+def _belongs(joint: Filled, parts: Sequence[Fragment], at: int) -> bool:
+    """Whether a part that is set off by a comma has only what the frame keeps: "at tick 12, why …"."""
     part = parts[at]
     if parts[max(at, 1)].after != PAUSE:
         return False

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, get_args
 
-from service.actions import QUESTIONS, MetricName, ViewName, load
+from service.actions import QUESTIONS, ChatKind, Choosable, MetricName, Term, ViewName, load
 from service.grammar.sentences import Sentences, Unsayable
 from service.styles import styles
 from sim.actions import (
@@ -123,6 +123,8 @@ def _clock() -> Iterator[dict[str, Any]]:
     for do in ("step", "rewind"):
         yield {"do": do, "ticks": 5}
         yield {"do": do, "ticks": 1}
+    for moment in (5, "crash", "episode", "start"):
+        yield {"do": "rewind", "to": moment}
     for mode in ("manual", "auto"):
         yield {"do": "mode", "mode": mode}
     for move in Move:
@@ -160,12 +162,28 @@ def _questions() -> Iterator[dict[str, Any]]:
     for metric in get_args(MetricName):
         yield {"do": "ask", "about": "metrics", "metric": metric}
     yield {"do": "ask", "about": "what_if", "change": [{"do": "add", "kind": "pothole", "count": 5}]}
+    for parameter in get_args(Parameter):
+        yield {"do": "ask", "about": "setting", "parameter": parameter}
+        for value in CHOICES.get(parameter, ()):
+            yield {"do": "ask", "about": "setting", "parameter": parameter, "value": value}
+    for name in (*get_args(Parameter), *get_args(Choosable)):
+        yield {"do": "ask", "about": "options", "parameter": name}
+    for term in get_args(Term):
+        yield {"do": "ask", "about": "term", "term": term}
+    yield {"do": "ask", "about": "history", "what": "closest_call"}
+    yield {"do": "ask", "about": "history", "what": "summary"}
+    yield {"do": "ask", "about": "history", "what": "since", "tick": 5}
+    yield {"do": "ask", "about": "history", "what": "since", "ticks": 10}
+    yield {"do": "ask", "about": "history", "what": "between", "tick": 5, "until": 20}
+    yield {"do": "ask", "about": "history", "what": "seen", "tick": 5}
 
 
 def _rest() -> Iterator[dict[str, Any]]:
     for view in get_args(ViewName):
         yield {"do": "show", "view": view}
         yield {"do": "hide", "view": view}
+    for kind in get_args(ChatKind):
+        yield {"do": "chat", "kind": kind}
     yield {"do": "evaluate", "runs": 500, "planners": ["astar", "priority"]}
     yield {"do": "find_worst", "runs": 200, "planner": "astar"}
     for goal in get_args(GoalName):

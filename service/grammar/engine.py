@@ -20,10 +20,11 @@ from service.grammar.cache import ParseCache
 from service.grammar.compiled import check_fit, load_language
 from service.grammar.correction import answer_correction, opening_words
 from service.grammar.data import LanguageData, read_language
-from service.grammar.free_text import find_names
+from service.grammar.free_text import TEACH, find_names
 from service.grammar.lattice import Lattice, Name, Scanner
 from service.grammar.linter import defects
 from service.grammar.matching import Frames
+from service.grammar.name_ends import shorter_names
 from service.grammar.noun_phrases import NOUN
 from service.grammar.parse_types import Ambiguous, Choice, Correction, Parse, Refused, Understood
 from service.grammar.parser import Reading, content_of
@@ -119,14 +120,44 @@ class Language:
             readings = repair.readings(lambda each: self.read(each, topic, work, asking=False))
             if readings is not None:
                 return self._answer_repair(text, repair.phrase, readings, lattice, asking=asking)
+        if kept and TEACH not in lattice.concepts and not uncovered:
+            names = [at for start, name in kept.items() for at in range(start, name.end)]
+            repair = Repair.find(plain, tokens, lattice, work)
+            if repair is not None and repair.start not in names and repair.is_sure:
+                return self._answer_repair(text, repair.phrase, [], lattice, asking=asking)
         reading = Reading(self, text, plain, tokens, lattice, corrections, topic, work)
         parsed = reading.parse(asking=asking)
+        if kept and isinstance(parsed, Understood):
+            parsed = self._ask_name(
+                parsed, restore_marks(text, plain), tokens, kept, topic, work, asking=asking
+            )
         if not asking or uncovered or tokens[0].text not in self._correction_openings:
             return parsed
         sure = self._corrects(tokens)
         return (
             parsed if sure is None else answer_correction(self, text, plain, topic, parsed, work, sure=sure)
         )
+
+    def _ask_name(
+        self,
+        parsed: Understood,
+        said: str,
+        tokens: Sequence[Token],
+        kept: Mapping[int, Name],
+        topic: Topic,
+        work: WorkBudget,
+        *,
+        asking: bool,
+    ) -> Parse:
+        """The question where a name ends, if a request may follow it; else what was read."""
+        read = lambda each: self.read(each, topic, work, asking=False)  # noqa: E731
+        choices = shorter_names(said, tokens, kept, self._lexicon, parsed, read)
+        if not choices:
+            return parsed
+        if asking:
+            return Ambiguous(parsed.text, self.data.messages["which"], tuple(choices))
+        message = self.data.messages["together_or_apart"].format(phrase=parsed.text.strip())
+        return Refused(parsed.text, "not_understood", message)
 
     @cached_property
     def _correction_openings(self) -> frozenset[str]:
@@ -214,9 +245,9 @@ class Language:
         return Typos(self.data.typos, words, self.data.numbers.words(), same)
 
     def _meant(self, word: str) -> frozenset[tuple[str, str]]:
-        """All that a word alone can mean."""
+        """All that a word alone can mean, that the glossary explains it aside."""
         senses = self._lexicon.senses_of((word,))
-        return frozenset((sense.concept, repr(sense.value)) for sense in senses)
+        return frozenset((sense.concept, repr(sense.value)) for sense in senses if sense.concept != "term")
 
     def _nouns(self, word: str) -> frozenset[str]:
         """What a word alone is a noun for, singular and plural taken together."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from service.actions import Action, Advise, Ask
 from service.actions.table import traits_of
@@ -41,7 +41,11 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     "and left?" asks the same of the left.
     """
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
-    if not topic.actions or topic.undone or not (alone or _goes_on_asking(topic, parsed)):
+    if not topic.actions or topic.undone:
+        return parsed
+    if isinstance(parsed, Understood) and _takes_the_place(language, text, topic, parsed):
+        return replace(parsed, actions=done_anew(topic, parsed.actions))
+    if not (alone or _goes_on_asking(topic, parsed)):
         return parsed
     tokens = tokenise(normalise(text), language.data.contractions)
     if len(tokens) > MAX_WORDS:
@@ -55,6 +59,14 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
         return found or parsed
     assert isinstance(parsed, Understood)
     return _after_question(language, leaning, found, parsed)
+
+
+def _takes_the_place(language: Language, text: str, topic: Topic, parsed: Understood) -> bool:
+    """Whether a request says at its end that it is meant instead of the last one: "left, I mean"."""
+    if not topic.steps or not about_the_same(topic.actions, parsed.actions):
+        return False
+    tokens = _without_marks(tokenise(normalise(text), language.data.contractions))
+    return language.data.answers.ending(tokens, INSTEAD) > 0
 
 
 def _goes_on_asking(topic: Topic, parsed: Parse) -> bool:
@@ -188,7 +200,7 @@ class _Leaning:
         """The last request at another place, where the place as it was said cannot be replaced by words."""
         if not all(getattr(action, "where", None) for action in done):
             return None
-        anywhere: Actions = tuple(replace(action, where=None) for action in done)  # type: ignore[type-var]
+        anywhere = _anywhere(done)
         try:
             base = self._language.sentence(anywhere)
         except Unsayable:
@@ -200,8 +212,7 @@ class _Leaning:
             or not all(getattr(each, "where", None) for each in parsed)
         ):
             return None
-        placed = tuple(replace(action, where=None) for action in parsed)  # type: ignore[type-var]
-        return parsed if placed == anywhere and parsed != done else None
+        return parsed if _anywhere(parsed) == anywhere and parsed != done else None
 
     def _question(self, base: str, done: Actions, rest: Sequence[Token], correcting: bool) -> Parse | None:
         """The question which part of the last request is meant, where there are several."""
@@ -231,6 +242,11 @@ class _Leaning:
 
     def _written(self, tokens: Sequence[Token]) -> str:
         return self._plain[tokens[0].start : tokens[-1].end]
+
+
+def _anywhere(actions: Sequence[Any]) -> Actions:
+    """The actions without their places."""
+    return tuple(replace(action, where=None) for action in actions)
 
 
 def shape(actions: Sequence[Action]) -> list[object]:

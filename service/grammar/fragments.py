@@ -13,6 +13,7 @@ from service.grammar.paths import SEPARATOR
 
 PAUSE = "pause"
 STOP = "stop"
+THEN = "then"
 OR = "or"
 EXCEPT = "except"
 """After this comes where something shall not be: "anywhere but the left lane"."""
@@ -26,6 +27,10 @@ INTERJECTION = "interjection"
 TAG = "tag"
 REPEATED = "repeated"
 """What was done before, said again: "again"."""
+DROP = "drop"
+"""What drops a question: its words may say nothing one by one."""
+_WHOLE_REQUESTS = (REPEATED, DROP)
+"""Phrases that are requests though their words may be glue."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +55,8 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             if stop > end or concept == INTERJECTION:
                 continue
             if concept != SEPARATOR:
+                if concept == GLUE and at > begin and _passes_on(lattice, at, stop, end):
+                    continue
                 reach = max(reach, stop)
             elif separator is None or stop > separator.end:
                 separator = edge
@@ -66,6 +73,14 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
     if _says_something(lattice, begin, end) or (after == OR and begin < end and found):
         found.append(Fragment(after, begin, end))  # "five or so": how many was meant is not known
     return found
+
+
+def _passes_on(lattice: Lattice, start: int, stop: int, end: int) -> bool:
+    """Whether a filler may be cut at its last word: "take that back then turn left", but not "now then, …"."""
+    return _says_something(lattice, stop, end, marks=True) and any(
+        edge.concept == SEPARATOR and edge.sense.value == THEN and edge.end == stop
+        for edge in lattice.between(start + 1, stop)
+    )
 
 
 def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
@@ -108,7 +123,7 @@ def _says_something(lattice: Lattice, start: int, end: int, *, marks: bool = Fal
         for _, stop, (concept, _, form), _ in lattice.edges[at]:
             if stop > end:
                 continue
-            if concept == REPEATED:
+            if concept in _WHOLE_REQUESTS:
                 return True
             if stop > passed and ((concept == GLUE and not form) or (marks and concept == SEPARATOR)):
                 passed = stop

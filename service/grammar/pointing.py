@@ -65,10 +65,10 @@ class Meant:
 
 @dataclass(frozen=True, slots=True)
 class Becomes:
-    """The kind that things become, and whether it was said of one or of many."""
+    """The kind that things become, and whether its noun is that of many things, of one, or of both."""
 
     kind: str
-    many: bool
+    many: frozenset[bool]
 
 
 def add_pointing(lattice: Lattice) -> None:
@@ -177,16 +177,21 @@ def _is_ego(lattice: Lattice, start: int, end: int) -> bool:
     return any(edge.end == end and edge.concept in _PLACES for edge in lattice.edges[start])
 
 
-def _places_from(lattice: Lattice, at: int, parts: int = MAX_PARTS) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Where it ends, each place that the words from here tell, of one part or several."""
+def _places_from(
+    lattice: Lattice, at: int, parts: int = MAX_PARTS, *, staying: bool = False
+) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Where it ends, each place that the words from here tell, of one part or several.
+
+    `staying`: nothing moves, so that words before a goal say no more than "in".
+    """
     if at >= lattice.size or not parts:
         return
     for edge in lattice.edges[at]:
         concept, value = edge.sense.concept, edge.sense.value
         if (concept == GLUE and not edge.sense.form) or concept == "prep":
-            if any(mark.concept == GOAL and mark.end == edge.end for mark in lattice.edges[at]):
+            if not staying and any(e.concept == GOAL and e.end == edge.end for e in lattice.edges[at]):
                 continue  # "to" does not lead to where a thing is, but to where it shall be
-            yield from _places_from(lattice, edge.end, parts)
+            yield from _places_from(lattice, edge.end, parts, staying=staying)
             continue
         part: dict[str, Any] | None = None
         if concept == "place" and isinstance(value, dict):
@@ -201,7 +206,7 @@ def _places_from(lattice: Lattice, at: int, parts: int = MAX_PARTS) -> Iterator[
             continue
         if "distance_m" not in part and part.keys() != {"cells"}:
             yield edge.end, part
-        for end, rest in _places_from(lattice, edge.end, parts - 1):
+        for end, rest in _places_from(lattice, edge.end, parts - 1, staying=staying):
             try:
                 yield end, merge_places([part, rest])
             except CannotBuild:
@@ -238,13 +243,18 @@ def _add_kinds(lattice: Lattice) -> None:
         lattice.edges[at] += found
 
 
-def _kinds_at(lattice: Lattice, at: int) -> Iterator[tuple[int, Becomes]]:
+def _kinds_at(lattice: Lattice, at: int) -> list[tuple[int, Becomes]]:
+    """The kinds that the words from here name; a noun may be the same for one and for many."""
+    found: dict[tuple[int, str], set[bool]] = {}
     for edge in lattice.edges[at] if at < lattice.size else ():
         amount = edge.sense.value
         if edge.concept == "thing.bare_many":
-            yield edge.end, Becomes(amount.of, True)
-        elif edge.concept == "thing.bare_one" or (edge.concept == "thing.counted" and amount.count == 1):
-            yield edge.end, Becomes(amount.of, False)
+            found.setdefault((edge.end, amount.of), set()).add(True)
+        elif edge.concept == "thing.bare_one":
+            found.setdefault((edge.end, amount.of), set()).update((True, False))
+        elif edge.concept == "thing.counted" and amount.count == 1:
+            found.setdefault((edge.end, amount.of), set()).add(False)
+    return [(end, Becomes(kind, frozenset(many))) for (end, kind), many in found.items()]
 
 
 def _add_exceptions(lattice: Lattice) -> None:
@@ -326,7 +336,7 @@ def _stays(lattice: Lattice, at: int, kind: str | None) -> Iterator[tuple[int, d
             if concept == "nearest" and kind is not None:
                 yield edge.end, {"kind": kind, "except": {"nearest": True}}
             if concept == ONES and kind is not None:
-                for end, where in _places_from(lattice, edge.end):
+                for end, where in _places_from(lattice, edge.end, staying=True):
                     if not where.keys() & {"each", "nearest"}:
                         yield end, {"kind": kind, "except": where}
             if concept == "thing.counted" and kind in (None, value.of) and isinstance(value.count, int):

@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass, replace
 
 from service.actions import dump
 from service.grammar.fragments import REPEATED
-from service.grammar.lattice import Edge, Lattice
+from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
 from service.grammar.parse_types import Parse, Refused, Understood
@@ -85,9 +85,10 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     unclear: list[Unclear] = []
     for edge in [edge for starting in lattice.edges for edge in starting if edge[2][0] in _REFERRING]:
         found = _pronoun(edge, lattice, topic) if edge.sense.concept == REFERS else _pointed(edge, topic)
-        if edge.sense.concept == REFERS and (
+        of_several = edge.sense.concept == REFERS and (
             isinstance(edge.sense.value, dict) or edge.sense.value in _WHOLE
-        ):
+        )
+        if of_several and _ends_here(lattice, edge):
             _keep_whole(lattice, edge)
         if isinstance(found, Unclear):
             unclear.append(found)
@@ -143,8 +144,20 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return Unclear(start, end)
 
 
+def _ends_here(lattice: Lattice, outer: Edge) -> bool:
+    """Whether no phrase begins in an edge and goes on behind it, as the "third lane" of "the third" does."""
+    inside = range(outer.start + 1, outer.end)
+    return all(edge.end <= outer.end for at in inside for edge in lattice.edges[at])
+
+
 def _keep_whole(lattice: Lattice, outer: Edge) -> None:
-    """Let no word of a reference mean anything by itself: the "one" of "the first one" is no amount."""
+    """Let no word of a reference mean anything by itself: the "one" of "the first one" is no amount.
+
+    Unless it is the beginning of something longer: "the third" of "the third lane", where no "one" is said.
+    """
+    inside = (edge for at in range(outer.start + 1, outer.end) for edge in lattice.edges[at])
+    if any(edge.end > outer.end and edge.sense.concept != GLUE for edge in inside):
+        return
     for at in range(outer.start, outer.end):
         lattice.edges[at] = [
             edge

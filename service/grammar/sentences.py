@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
-from typing import Any
+from typing import Any, Literal
 
 from service.actions import (
     Action,
     Advise,
     Ask,
+    Chat,
     Evaluate,
     FindWorst,
     Forget,
@@ -84,6 +85,13 @@ class Unsayable(ValueError):  # noqa: N818 - says what the actions are, not what
     """Actions that no sentence of the language means."""
 
 
+class _Sayable(dict[str, Any]):
+    """Words by their key; one that is not there cannot be said."""
+
+    def __missing__(self, key: str) -> Any:
+        raise Unsayable(f"no words for {key}")
+
+
 class Sentences:
     """Sentences in one language."""
 
@@ -100,6 +108,8 @@ class Sentences:
         """One sentence for all of them, in order. Raises `Unsayable`."""
         if not actions or not self._words:
             raise Unsayable("nothing is said by no sentence, and a language may have none")
+        if len({isinstance(action, Chat) for action in actions}) > 1:
+            raise Unsayable("small talk beside a request says nothing")
         whole = ""
         before: Action | None = None
         for action in actions:
@@ -152,6 +162,12 @@ class Sentences:
             case Drive():
                 key = "drive" if action.ego is None else "drive_ego"
                 return self._say(key, move=self._word("moves", action.move), ego=action.ego)
+            case Rewind(to=str(moment)):
+                return self._word("rewind_to", moment)
+            case Rewind(to=int(tick)):
+                return self._say("rewind_to_tick", tick=tick)
+            case Chat():
+                return self._word("chat", action.kind)
             case Step() | Rewind():
                 key = action.do if action.ticks != 1 else f"{action.do}_one"
                 return self._say(key, count=action.ticks)
@@ -194,21 +210,23 @@ class Sentences:
         side = self._word("shift", action.by.side)
         return self._say(key, things=things, cells=action.by.cells, side=side)
 
-    def _meant(self, kind: str, count: int | str, where: Where | None) -> str:
+    def _meant(self, kind: str, count: int | Literal["all"], where: Where | None) -> str:
         """Things that are on the road already: "all cars in lane 2", "the 2 nearest cones", "pothole-3"."""
         many = self._entry("things", kind)[1]
         if where is not None and where.id is not None:
             if where != Where(id=where.id) or count != 1 or where.id.rpartition("-")[0] != kind:
                 raise Unsayable("an id is a thing of its own")
             return where.id
+        if count == "all":
+            if where is not None and where.nearest:
+                raise Unsayable("how many are nearest is a number")
+            return self._say("meant_all", things=many, where=self._where(where))
         if where is not None and where.nearest:
-            if where != Where(nearest=True) or count == "all":
+            if where != Where(nearest=True):
                 raise Unsayable("the nearest are nearest to the vehicle")
             return self._say(
                 "meant_nearest" if count == 1 else "meant_nearest_many", **self._counted(kind, count)
             )
-        if count == "all":
-            return self._say("meant_all", things=many, where=self._where(where))
         return self._say("meant", **self._counted(kind, count), where=self._where(where))
 
     def _one(self, one: OneThing) -> str:
@@ -253,7 +271,8 @@ class Sentences:
         if count == "all":
             return self._say("remove_all", things=self._entry("things", kind)[1], where=self._where(where))
         if count == 1 and where == Where(nearest=True):
-            return self._say("remove_nearest", thing=self._entry("things", kind)[0])
+            named = self._entry("things", kind)
+            return self._say("remove_nearest", thing=named[0], nearest=named[-1])
         if count == 1 and where is not None and where.id is not None and where == Where(id=where.id):
             if where.id.rpartition("-")[0] != kind:
                 raise Unsayable(f"{where.id} is no {kind}")
@@ -278,7 +297,7 @@ class Sentences:
             return ""
         if any(getattr(where, a) is not None and getattr(where, b) is not None for a, b in _EXCLUSIVE):
             raise Unsayable("parts of the place contradict each other")
-        words = {**self._words["where"], **self._words.get(section, {})}
+        words = _Sayable({**self._words["where"], **self._words.get(section, {})})
         said = self._absolute(where, words)
         if where.distance_m is not None:
             key = "distance_side" if where.side else "distance"
@@ -309,7 +328,7 @@ class Sentences:
         said = ""
         if where.lane is not None:
             key = "lane_number" if isinstance(where.lane, int) else "lane"
-            said += words[key].format(lane=where.lane)
+            said += words[key].format(lane=self._words.get("lanes", {}).get(where.lane, where.lane))
         if where.lanes is not None:
             said += words["lanes"].format(first=where.lanes[0], last=where.lanes[1])
         if where.each is not None:
@@ -333,7 +352,7 @@ class Sentences:
             told = number(value)
         elif parameter == "traffic":
             self._value(parameter, value)
-            told = value
+            told = self._words.get("traffic_levels", {}).get(value, value)
         else:
             told = self._value(parameter, value)
         return self._say("set", parameter=self._word("parameters", parameter), value=told)
@@ -365,6 +384,14 @@ class Sentences:
                 return self._say("scene_kind", things=self._entry("things", ask.kind)[1])
             case "metrics" if ask.metric is not None:
                 return self._word("metric", ask.metric)
+            case "setting":
+                return self._setting_asked(ask)
+            case "options" if ask.parameter is not None:
+                return self._word("options_of", ask.parameter)
+            case "term":
+                return self._say("term", term=self._word("terms", ask.term))
+            case "history":
+                return self._history(ask)
             case "changes" if ask.count is not None or ask.tick is not None:
                 if ask.count is not None and ask.tick is not None:
                     raise Unsayable("changes are counted, or those since a tick")
@@ -372,6 +399,26 @@ class Sentences:
                 return self._say(key, count=ask.count, tick=ask.tick)
             case about:
                 return self._say(about)
+
+    def _setting_asked(self, ask: Ask) -> str:
+        name = str(ask.parameter)
+        if ask.value is None:
+            return self._word("setting_asked", name)
+        named = name in self._words["values"]
+        if named is not isinstance(ask.value, str):
+            raise Unsayable(f"{ask.value!r} is no value of {name}")
+        if isinstance(ask.value, str):
+            value = self._value(name, ask.value)
+            return self._word("setting_is", name).format(value=value)
+        return self._say(
+            "setting_is_number", parameter=self._word("parameters", name), value=number(ask.value)
+        )
+
+    def _history(self, ask: Ask) -> str:
+        key = str(ask.what)
+        if ask.ticks is not None:
+            key += "_ticks" if ask.ticks != 1 else "_tick"
+        return self._word("history", key).format(tick=ask.tick, until=ask.until, ticks=ask.ticks)
 
     def _evaluate(self, action: Evaluate) -> str:
         planners = [self._value("planner", planner) for planner in action.planners or ()]

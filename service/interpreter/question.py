@@ -42,7 +42,8 @@ def answered(language: Any, code: str, text: str, parse: Parse, pending: Pending
 
     A request of its own is an answer only where it says no more than the words of one choice.
     """
-    if pending is None or not isinstance(language, Grammar):
+    asks_itself = isinstance(parse, AmbiguousParse)
+    if pending is None or asks_itself or not isinstance(language, Grammar):
         return parse
     choices = [Choice(each.text, each.actions) for each in pending.choices]
     literal = not isinstance(parse, Refused) or code != pending.language

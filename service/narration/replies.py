@@ -279,8 +279,8 @@ class Replies:
 def _grouped(facts: tuple[Fact, ...]) -> list[list[Fact]]:
     """The facts one by one, but together what is told at once.
 
-    Things that are taken away by name or put into cells, one after another; and wishes, of which the last tells
-    all that hold.
+    Things that are taken away by name or put into cells, one after another; and wishes, of which the last
+    tells all that hold.
     """
     groups: list[list[Fact]] = []
     for fact in facts:

@@ -1,6 +1,6 @@
 """The work that a search may do, counted and never timed, so that the same moment has the same answer.
 
-A unit is one tick of the simplest planner on a road of the default size or less; one twice as large costs twice.
+A unit is one tick of the simplest planner on a road of the default size or less; twice the size costs twice.
 """
 
 from __future__ import annotations

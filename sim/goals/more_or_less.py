@@ -23,6 +23,7 @@ from sim.session.edits import apply
 from sim.session.errors import EditError
 from sim.state import SimState
 from sim.types import Kind, Outcome
+from sim.world import Thing
 from sim.world.grid import cells_of
 
 HARDER_BY: Final[dict[Degree | None, float]] = {"little": 0.05, None: 0.12, "lot": 0.25}
@@ -188,6 +189,10 @@ def _removing(state: SimState, stream: Stream) -> Remove | None:
     if not things:
         return None
     thing = things[stream.below(len(things), 0)]
+    return _taking(thing)
+
+
+def _taking(thing: Thing) -> Remove:
     return Remove(kind=thing.kind.value, count=1, where=Where(id=thing.id))
 
 
@@ -202,7 +207,7 @@ def _opened(state: SimState, budget: Budget) -> Finding | None:
         thing = after.world.find(name)
         if thing is None or thing.kind is Kind.AV:
             return None
-        action = Remove(kind=thing.kind.value, count=1, where=Where(id=name))
+        action = _taking(thing)
         actions.append(action)
         after = apply(after, action).state
     level = measure(after, budget)

@@ -39,7 +39,7 @@ def resize(state: SimState, action: Adjust, config: Config) -> Applied:
     fewer_rows = world.road.rows - config.rows
     arrived = [index for index in world.avs if fewer_rows > 0 and index // world.road.columns == fewer_rows]
     if gone or arrived:
-        raise EditError("would_fall_off", "by", count=len(gone) + len(arrived), setting=action.parameter)
+        raise EditError("would_fall_off", "by", lost=len(gone) + len(arrived), setting=action.parameter)
     after = replace(with_world(state, on_road(world, config.columns, config.rows)), config=config)
     # What was seen and reckoned on the road of the old size is told in its cells.
     for id, ego in state.egos.items():

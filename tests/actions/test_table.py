@@ -84,9 +84,18 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         "kind": "pothole",
         "metric": "steps",
         "count": 2,
+        "parameter": "courtesy",
+        "value": 0.5,
+        "term": "tick",
+        "what": "between",
+        "until": 5,
+        "ticks": 3,
     }
     traits = QUESTIONS[about]
-    (asked,) = load([{"do": "ask", "about": about, **{key: values[key] for key in traits.may}}])
+    named = {key: values[key] for key in traits.may}
+    if about == "history":  # ticks are counted back, or named
+        del named["ticks"]
+    (asked,) = load([{"do": "ask", "about": about, **named}])
     assert isinstance(asked, Ask)
     assert traits_of(asked).is_question
     for key in values.keys() - set(traits.may):
@@ -97,6 +106,29 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
             load([{"do": "ask", "about": about}])
 
 
+@pytest.mark.parametrize(
+    ("keys", "fits"),
+    [
+        ({"what": "summary"}, True),
+        ({"what": "summary", "tick": 3}, False),
+        ({"what": "since", "tick": 3}, True),
+        ({"what": "since", "ticks": 3}, True),
+        ({"what": "since"}, False),
+        ({"what": "since", "tick": 3, "ticks": 3}, False),
+        ({"what": "between", "tick": 3, "until": 3}, True),
+        ({"what": "between", "tick": 3, "until": 2}, False),
+        ({"what": "seen", "until": 2}, False),
+    ],
+)
+def test_questions_about_the_past_name_the_ticks_they_need(keys: dict[str, object], fits: bool) -> None:
+    values = [{"do": "ask", "about": "history", **keys}]
+    if fits:
+        load(values)
+        return
+    with pytest.raises(ValueError, match=r"names|ends after"):
+        load(values)
+
+
 def test_an_action_has_traits_whatever_it_holds() -> None:
     actions: tuple[Action, ...] = load([{"do": verb(kind)} for kind in ACTION_TYPES if _is_bare(kind)])
     assert all(traits_of(action) is BY_VERB[action.do] for action in actions)
@@ -105,6 +137,6 @@ def test_an_action_has_traits_whatever_it_holds() -> None:
 def _is_bare(kind: type) -> bool:
     try:
         kind()
-    except TypeError:
+    except (TypeError, ValueError):
         return False
     return True

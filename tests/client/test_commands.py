@@ -27,7 +27,17 @@ from service.settings import Settings
 from tests.support.command import COMMAND, ENVIRONMENT, ROOT, run
 from tests.support.service_process import ServiceProcess
 
-COMMANDS = ("serve", "say", "watch", "replay", "sessions", "doctor", "check-planner", "language-eval")
+COMMANDS = (
+    "serve",
+    "say",
+    "watch",
+    "replay",
+    "sessions",
+    "doctor",
+    "check-planner",
+    "language-eval",
+    "language-fuzz",
+)
 
 
 @pytest.fixture

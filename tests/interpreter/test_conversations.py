@@ -1,4 +1,4 @@
-"""Whole conversations, turn after turn: what each turn does, asks or refuses, and that a replay ends the same.
+"""Whole conversations, turn by turn: what each turn does, asks or refuses, and that a replay ends the same.
 
 They are data (`tests/data/conversations`): a turn says something and `does` actions, `asks` a question or
 `refuses` with a kind of problem; `why` is for readers.

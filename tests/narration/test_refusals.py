@@ -34,6 +34,7 @@ FACTS: dict[str, tuple[Any, Any]] = {
     "id": ("pothole-433", "av-1"),
     "kind": (Kind.POTHOLE, "everything"),
     "lane": (439, 9),
+    "lost": (521, 1),
     "lanes": (443, 8),
     "last_column": (449, 7),
     "last_row": (457, 29),
@@ -186,7 +187,7 @@ def test_problems_as_they_are_read() -> None:
 def test_versions_are_told_of() -> None:
     newer = refusals().newer_rules(NewerRulesError(9), "session")
     assert newer == (
-        "This session was made by a newer version of Roadtalk (rules 9). This one knows rules up to 2."
+        "This session was made by a newer version of Roadtalk (rules 9). This one knows rules up to 3."
     )
     assert refusals().older_rules(1) == "Made under rules 1: it replays as it did then."
 

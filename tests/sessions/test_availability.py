@@ -58,6 +58,10 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "ask", "about": "confidence"},
     {"do": "ask", "about": "maintenance"},
     {"do": "drop"},
+    {"do": "move", "kind": "barrier", "count": 1, "to": {"lane": 3}},
+    {"do": "swap", "first": {"kind": "barrier"}, "second": {"kind": "vehicle"}},
+    {"do": "replace", "kind": "barrier", "count": 1, "by": "vehicle"},
+    {"do": "copy", "kind": "barrier", "count": 1},
     {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
 ]
 BESIDE_SESSIONS = {"teach", "forget"}
@@ -72,6 +76,10 @@ REFUSED: list[dict[str, Any]] = [
     {"do": "add", "kind": "av", "count": 1},
     {"do": "remove", "kind": "av", "count": "all"},
     {"do": "set_count", "kind": "av", "count": 2},
+    {"do": "move", "kind": "av", "count": 1, "to": {"lane": 3}},
+    {"do": "swap", "first": {"kind": "av"}, "second": {"kind": "vehicle"}},
+    {"do": "replace", "kind": "vehicle", "count": 1, "by": "av"},
+    {"do": "copy", "kind": "av", "count": 1},
     *({"do": "scenario", key: value} for key, value in (
         ("weather", "rain"), ("time_of_day", "night"), ("sensor", "lidar"), ("planner", "rl"), ("avs", 1),
     )),

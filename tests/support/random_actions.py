@@ -9,7 +9,7 @@ import sys
 from random import Random
 from typing import Any, get_args
 
-from service.actions import Action, dump, load
+from service.actions import Action, Term, dump, load
 from service.grammar import Language, Understood
 from service.grammar.sentences import Unsayable
 from service.styles import styles
@@ -226,6 +226,8 @@ class Maker:
         do = self.pick(PLAIN)
         keys: dict[str, Any] = {}
         match do:
+            case "rewind" if self.chance(0.5):
+                keys["to"] = self.random.choice(("crash", "episode", "start", self.random.randint(0, 999)))
             case "step" | "rewind":
                 keys["ticks"] = self.random.choice((1, self.random.randint(2, 10_000)))
             case "mode":
@@ -267,6 +269,10 @@ class Maker:
                 "confidence",
                 "maintenance",
                 "help",
+                "setting",
+                "options",
+                "term",
+                "history",
             )
         )
         action: dict[str, Any] = {"do": "ask", "about": about}
@@ -283,7 +289,33 @@ class Maker:
                 action["kind"] = self.pick(KINDS)
             case "metrics" if self.chance(0.8):
                 action["metric"] = self.pick(METRICS)
+            case "setting" | "options" if about == "setting" or self.chance(0.8):
+                action["parameter"] = self.pick((*CHOICES, *NUMBERS, *WHOLE))
+                if about == "setting" and self.chance(0.5):
+                    action["value"] = self.value_of(action["parameter"])
+            case "term":
+                action["term"] = self.pick(get_args(Term))
+            case "history":
+                action |= self.past()
         return action
+
+    def value_of(self, parameter: str) -> Any:
+        """A value that a setting may be asked to have."""
+        if parameter in CHOICES:
+            return self.pick(CHOICES[parameter])
+        return self.random.randint(0, 10**6) if parameter in WHOLE else self.number()
+
+    def past(self) -> dict[str, Any]:
+        """What of the past is asked about."""
+        tick = self.random.randint(0, 5000)
+        what = self.pick(("closest_call", "summary", "since", "between", "seen"))
+        match what:
+            case "between":
+                return {"what": what, "tick": tick, "until": tick + self.random.randint(0, 99)}
+            case "since" | "seen":
+                ticks = {"ticks": self.random.choice((1, self.random.randint(2, 999)))}
+                return {"what": what, **(ticks if self.chance(0.5) else {"tick": tick})}
+        return {"what": what}
 
     def evaluation(self) -> dict[str, Any]:
         match self.random.randint(0, 2):

@@ -16,6 +16,7 @@ from service.actions import dump
 from service.grammar.composition import done_by
 from service.grammar.engine import Language
 from service.grammar.fuzz.sayings import Saying
+from service.grammar.lattice import GLUE
 from service.grammar.parse_types import Ambiguous, Parse, Understood
 
 Verdict = Literal["same", "declared", "asked", "refused", "lost", "changed"]
@@ -63,7 +64,16 @@ def joined(one: Saying, other: Saying, joiner: str) -> Joined:
 def verdict(language: Language, pair: Joined) -> Verdict:
     """What became of the parts."""
     one, other, text = pair
+    if _is_idiom(language, one, text):
+        return "declared"
     return judge(one, other, language.parse(text))
+
+
+def _is_idiom(language: Language, one: Saying, text: str) -> bool:
+    """Whether the first sentence and the joiner are a filler together: "go ahead and …"."""
+    words, said = language.words_of(text), len(language.words_of(one.text))
+    ends = range(said + 1, min(said + 3, len(words)))
+    return any(s.concept == GLUE for end in ends for s in language.data.lexicon.senses_of(words[:end]))
 
 
 def judge(one: Saying, other: Saying, parsed: Parse) -> Verdict:
@@ -74,7 +84,7 @@ def judge(one: Saying, other: Saying, parsed: Parse) -> Verdict:
     wanted = [*one.actions, *other.actions]
     if got == wanted or got == _without_emphasis(one.actions, other.actions):
         return "same"
-    if _leans(one, other, got) or _takes_in(wanted, got) or _goes_on(one, other, got):
+    if _leans(one, other, got) or _takes_in(wanted, got) or _goes_on(one, got):
         return "declared"
     return "lost" if len(got) < len(wanted) else "changed"
 
@@ -105,10 +115,8 @@ def _takes_in(wanted: Actions, got: Actions) -> bool:
     return len(got) < len(wanted) and done_by(wanted, got)
 
 
-def _goes_on(one: Saying, other: Saying, got: Actions) -> bool:
+def _goes_on(one: Saying, got: Actions) -> bool:
     """Whether the second part is in the condition, or the taught phrase, that the first ends with."""
     *before, last = one.actions
     inner = next((key for key in ("change", "meaning") if key in last), None)
-    if inner is None or list(got[:-1]) != before:
-        return False
-    return got[-1] == {**last, inner: [*last[inner], *other.actions]}
+    return inner is not None and list(got[:-1]) == before and last[inner] != got[-1].get(inner, last[inner])
