@@ -40,8 +40,8 @@ def said(hazard: str, distance_m: float, speed_kmh: float, weather: str = "clear
         (
             ("pedestrian", 40, 50),
             "Brake and steer round the pedestrian, if there is room: at 50 km/h that takes 24 m, and you "
-            "have 40 m. Braking alone, half of all drivers stop within 28 m, which is less sure. I am 96 % sure "
-            "that this ends well, as long as the pedestrian stays put. "
+            "have 40 m. Braking alone, half of all drivers stop within 28 m, which is less sure. "
+            "I am 96 % sure that this ends well, as long as the pedestrian stays put. "
             "Of people who are hit all the same, about 5 in 100 die of it.",
         ),
         (
