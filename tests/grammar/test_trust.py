@@ -25,7 +25,9 @@ def wrong_acts(language: Language, path: Path) -> tuple[list[tuple[str, Any]], i
         count += len(told)
         for text, actions in told:
             parsed = language.parse(text)
-            if isinstance(parsed, Understood) and dump(parsed.actions) != actions:
+            if not isinstance(parsed, Understood) or dump(parsed.actions) == actions:
+                continue
+            if any(action.do != "chat" for action in parsed.actions):  # small talk does nothing
                 wrong.append((text, dump(parsed.actions)))
     return wrong, count
 
