@@ -1,8 +1,8 @@
 """Accounts for the words that decide what the words beside them mean, and for which words made an action.
 
 "To", "by", "too", "for" say little alone and are glue in most places. Beside an amount or a value they change
-what it means: "to 20 km/h" is no "by 20 km/h", "too dark" is no "dark". Such a word is a *marker*. Which words
-are markers, and in which role, is data (`marker.…` in the lexicon). In its role a marker is never glue: its
+what it means: "to 20 km/h" is no "by 20 km/h", "too dark" is no "dark". Such a word is a *marker*. Which
+words are markers, and in which role, is data (`marker.…` in the lexicon). In its role a marker is never glue: its
 readings without a meaning are withheld before any frame is tried, so that only a frame with a use for it can
 take the sentence. Where none has, the refusal names the marker and what it stands with.
 """
@@ -40,7 +40,7 @@ PHRASE = "marker.phrase"
 """Role of phrases whose words say nothing more alone, wherever they stand: "next to"."""
 
 CLAUSE = "marker.clause"
-"""Words that begin a clause of condition or time; in a name that is not in quotation marks they are no part of it."""
+"""Words that begin a clause of condition or time; they are no part of a name without quotation marks."""
 
 MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, POINTER, PHRASE, CLAUSE))
 
@@ -87,7 +87,7 @@ def withhold(lattice: Lattice, free: Set[str]) -> None:
 
 @contextmanager
 def restored(lattice: Lattice, withheld: Sequence[Withheld], end: int) -> Iterator[None]:
-    """For a while, words up to `end` may be all that was withheld, and be passed over with what they govern."""
+    """For a while, words may be all that was withheld, and be passed over with what they govern, up to `end`."""
     before = {each.start: list(lattice.edges[each.start]) for each in withheld}
     for each in withheld:
         here = lattice.edges[each.start]
@@ -172,7 +172,7 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
 
 
 def _ending_with(lattice: Lattice, marker: Edge) -> list[Edge]:
-    """The edges that begin before a marker and end with it, but for quantities: "copy that", not "all of that"."""
+    """The edges that begin before a marker and end with it, but for quantities: "copy that"."""
     return [
         edge
         for starting in lattice.edges[max(0, marker.start - LONGEST_BEFORE) : marker.start]

@@ -1,4 +1,4 @@
-"""Sentences in which one word decides what is meant: what they say is done, asked about or refused, never something else."""
+"""Sentences in which one word decides: what they say is done, asked about or refused, never something else."""
 
 from __future__ import annotations
 
@@ -81,5 +81,7 @@ def test_an_action_of_several_is_aligned_with_its_own_thing(language: Language) 
     parsed = language.parse(text)
     assert isinstance(parsed, Understood)
     said = [" ".join(text[start:end] for start, end in spans) for spans in parsed.alignment]
-    assert "two cars" in said[0] and "cones" not in said[0]
-    assert "three cones" in said[1] and "cars" not in said[1]
+    assert "two cars" in said[0]
+    assert "cones" not in said[0]
+    assert "three cones" in said[1]
+    assert "cars" not in said[1]
