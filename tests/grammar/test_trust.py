@@ -50,7 +50,7 @@ def test_no_german_sentence_is_acted_on_otherwise_than_it_says() -> None:
         ("pause for five seconds", "for five seconds"),
         ("use A* for 20 ticks", "for 20 ticks"),
         ("make it rain and pause for 5 seconds", "for 5 seconds"),
-        ("move that car to the left", "that car"),
+        ("stop that truck", "that truck"),
         ("make it rain in ten seconds", "in ten seconds"),
         ("use lidar at night", "at night"),
     ],
