@@ -309,7 +309,7 @@ class Divider:
         return None
 
     def _takes_place_out(self, part: Fragment, context: Context) -> bool:
-        """Whether it only says where something shall not be, and the place that was said does not settle that."""
+        """Whether it only says where something shall not be, which the place that was said leaves open."""
         said = list(self._lattice.between(part.start, part.end))
         keys = _places(said)
         return (

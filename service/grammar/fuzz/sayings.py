@@ -54,7 +54,7 @@ class Sayings:
 
     @cached_property
     def joinable(self) -> tuple[Saying, ...]:
-        """Those that say nothing about the sentence beside them: no corrections, no calls ("autopilot, …")."""
+        """Those that say nothing about the sentence beside them: no correction, no call ("autopilot, …")."""
         aside = (REPAIR, INTERJECTION)
         return tuple(
             saying
