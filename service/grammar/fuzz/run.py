@@ -110,7 +110,9 @@ class Fuzzer:
         may as well be something else.
         """
         if kind == NEUTRAL:
-            return self._sayings.all
+            return [
+                each for each in self._sayings.all if each.actions[-1]["do"] != "chat"
+            ]  # thanks are one more
         said = self._sayings.all if kind in ("number", "swap", "drop") else self._sayings.requests
         aside = (REPAIR, NEGATION)
         return [
