@@ -228,7 +228,9 @@ def _place_of(action: Add | Remove | SetCount | Rearranging) -> Where | None:
 
 def _read_where(values: Mapping[str, Any]) -> Where:
     """A place from JSON values, in which pairs are lists."""
-    parts = {key: tuple(value) if isinstance(value, list) else value for key, value in values.items()}
+    parts: dict[str, Any] = {
+        key: tuple(value) if isinstance(value, list) else value for key, value in values.items()
+    }
     of = values.get("of")
     return Where(**{**parts, "of": None if of is None else Landmark(**of)})
 
