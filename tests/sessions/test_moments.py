@@ -44,7 +44,8 @@ async def test_back_to_a_tick_to_the_start_of_the_episode_and_of_the_session() -
 
 
 @pytest.mark.parametrize(
-    ("moment", "why"), [("crash", "no crash"), (99, "no tick 99"), (3, "tick 3 already"), ("start", "tick 0 already")]
+    ("moment", "why"),
+    [("crash", "no crash"), (99, "no tick 99"), (3, "tick 3 already"), ("start", "tick 0 already")],
 )
 async def test_a_moment_that_never_was_is_refused(moment: str | int, why: str) -> None:
     service = Service()
