@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass, replace
 
 from service.actions import dump
 from service.grammar.fragments import REPEATED
-from service.grammar.lattice import Edge, Lattice
+from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
 from service.grammar.parse_types import Parse, Refused, Understood
@@ -151,7 +151,13 @@ def _ends_here(lattice: Lattice, outer: Edge) -> bool:
 
 
 def _keep_whole(lattice: Lattice, outer: Edge) -> None:
-    """Let no word of a reference mean anything by itself: the "one" of "the first one" is no amount."""
+    """Let no word of a reference mean anything by itself: the "one" of "the first one" is no amount.
+
+    Unless it is the beginning of something longer: "the third" of "the third lane", where no "one" is said.
+    """
+    inside = (edge for at in range(outer.start + 1, outer.end) for edge in lattice.edges[at])
+    if any(edge.end > outer.end and edge.sense.concept != GLUE for edge in inside):
+        return
     for at in range(outer.start, outer.end):
         lattice.edges[at] = [
             edge

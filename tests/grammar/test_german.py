@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from service.actions import dump
 from service.grammar import Ambiguous, Language, Refused, Understood
+from service.grammar.corpus import sentences
 from service.grammar.evaluation import evaluate, render, same
 from service.grammar.numbers import NumberWords
 from service.grammar.tokens import Contractions, normalise, tokenise
@@ -18,6 +19,7 @@ from service.grammar.topic import Topic
 from service.resources import prompts_folder
 from service.yaml_files import read_yaml
 from tests.grammar.beside import HERE, meaning
+from tests.support.random_actions import failures
 
 FOLDER = prompts_folder() / "language" / "de"
 NUMBERS = NumberWords.from_data(read_yaml(FOLDER / "numbers.yaml"))
@@ -308,8 +310,24 @@ def test_a_pair_in_brackets_is_no_decimal(german: Language) -> None:
     ]
 
 
-def test_what_cannot_be_said_back_is_refused_and_not_asked_about(german: Language) -> None:
-    assert isinstance(german.parse("noch zwei", Topic(kind="pothole", removed=True)), Refused)
+def test_what_is_said_back_means_what_was_done(german: Language) -> None:
+    said = list(sentences(german.sentences))
+    assert len(said) > 380
+    assert [text for text in said if not isinstance(german.parse(text), Understood)] == []
+
+
+def test_random_actions_come_back_or_cannot_be_said(german: Language) -> None:
+    told = [failure for failure in failures(german, range(300)) if "cannot be said" not in failure]
+    assert told == []
+
+
+def test_more_of_what_was_taken_away_is_asked_about(german: Language) -> None:
+    parsed = german.parse("noch zwei", Topic(kind="pothole", removed=True))
+    assert isinstance(parsed, Ambiguous)
+    assert [choice.text for choice in parsed.choices] == [
+        "entferne 2 Schlaglöcher",
+        "füge 2 Schlaglöcher hinzu",
+    ]
 
 
 @given(st.text(max_size=300))

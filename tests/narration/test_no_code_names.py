@@ -1,4 +1,4 @@
-"""No reply, refusal or log line holds a name of the code: no parameter, no planner's key, no id of a thing."""
+"""No reply, refusal or log line holds a name of the code: a parameter, a planner's key, the id of a thing."""
 
 from __future__ import annotations
 
