@@ -19,7 +19,7 @@ async def test_back_to_the_latest_crash_and_one_undo_brings_it_all_back() -> Non
     service.clock.tick(400)
     while session.run.metrics.crashes < 2:
         service.clock.tick(50)
-    ends = [state for state in session.timeline.between(0, session.timeline.tick + 1)]
+    ends = list(session.timeline.between(0, session.timeline.tick + 1))
     crashes = [
         state.world.tick
         for state in ends
