@@ -28,6 +28,7 @@ UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 SAME_IN_BOTH = {
     "stop", "halt", "pause", "reset", "undo", "redo", "start", "status", "autopilot",
     "planner: a*", "sensor: lidar", "seed 42", "seed = 42", "tempo 50 km/h",
+    "ok", "okay", "okay, stop", "hi", "sorry", "hey, roadtalk",
 }  # fmt: skip
 """Words that both languages have, with the same meaning, or that are a typo of the other's."""
 
