@@ -8,7 +8,7 @@ potholes"). Negated fragments are understood and then left out.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -311,6 +311,9 @@ class Divider:
         said = list(self._lattice.between(part.start, part.end))
         if any(edge.concept.startswith("v.") for edge in said):
             return False
+        if not any(isinstance(edge.sense.value, Amount) for edge in said):
+            keys = _places(said)
+            return bool(keys) and not keys <= context.places
         kinds = {edge.sense.value.of for edge in said if isinstance(edge.sense.value, Amount)}
         whole = context.noun is not None and context.noun.concept.endswith(_WHOLE)
         return context.everything or (
@@ -338,6 +341,17 @@ def _context(clause: Clause, before: Context) -> Context:
         everything,
         placed=placed,
         asks=asks(clause.actions),
+        places=_places(clause.filled.slots),
+    )
+
+
+def _places(edges: Iterable[Edge]) -> frozenset[str]:
+    """By what the places among some edges are given: "lane", "row", the concept of any other."""
+    placed = [edge for edge in edges if edge.concept in _PLACED]
+    return frozenset(
+        key
+        for edge in placed
+        for key in (edge.sense.value if isinstance(edge.sense.value, dict) else (edge.concept,))
     )
 
 

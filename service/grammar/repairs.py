@@ -114,13 +114,23 @@ class Repair:
         """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""
         said = ends_of_pieces(steps_of(self._lattice), self._again, self._work)
         found: list[Choice] = []
-        for end in sorted(end for end in said if end <= self._tail):
+        for end in sorted(end for end in said if end <= self._tail and self._stands_elsewhere(end)):
             before = self._written(0, self._edge.start if end < self._tail else self._end)
             text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
             parsed = read(text)
             if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in found):
                 found.append(Choice(text, parsed.actions))
         return found
+
+    def _stands_elsewhere(self, end: int) -> bool:
+        """Whether something of the same pattern as what is dropped is kept: else more than that is dropped."""
+        steps = steps_of(self._lattice)
+        pattern = SpanPattern(steps, self._again, end, self._work)
+        kept = (
+            *((at, self._end) for at in range(self._end)),
+            *((at, len(steps)) for at in range(end, len(steps))),
+        )
+        return any(pattern.first_match(at, last) is not None for at, last in kept)
 
     def _in_place(self, read: Read) -> list[Choice]:
         """The readings with a span of the same pattern replaced; the last request is tried first."""

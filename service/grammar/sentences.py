@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
-from typing import Any
+from typing import Any, Literal
 
 from service.actions import (
     Action,
@@ -210,21 +210,23 @@ class Sentences:
         side = self._word("shift", action.by.side)
         return self._say(key, things=things, cells=action.by.cells, side=side)
 
-    def _meant(self, kind: str, count: int | str, where: Where | None) -> str:
+    def _meant(self, kind: str, count: int | Literal["all"], where: Where | None) -> str:
         """Things that are on the road already: "all cars in lane 2", "the 2 nearest cones", "pothole-3"."""
         many = self._entry("things", kind)[1]
         if where is not None and where.id is not None:
             if where != Where(id=where.id) or count != 1 or where.id.rpartition("-")[0] != kind:
                 raise Unsayable("an id is a thing of its own")
             return where.id
+        if count == "all":
+            if where is not None and where.nearest:
+                raise Unsayable("how many are nearest is a number")
+            return self._say("meant_all", things=many, where=self._where(where))
         if where is not None and where.nearest:
-            if where != Where(nearest=True) or count == "all":
+            if where != Where(nearest=True):
                 raise Unsayable("the nearest are nearest to the vehicle")
             return self._say(
                 "meant_nearest" if count == 1 else "meant_nearest_many", **self._counted(kind, count)
             )
-        if count == "all":
-            return self._say("meant_all", things=many, where=self._where(where))
         return self._say("meant", **self._counted(kind, count), where=self._where(where))
 
     def _one(self, one: OneThing) -> str:

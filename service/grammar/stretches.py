@@ -32,6 +32,8 @@ class Context:
     """Whether it ended with a place: a number alone after it may be of more things, or of another place."""
     asks: bool = False
     """Whether it is a question."""
+    places: frozenset[str] = frozenset()
+    """By what its places are given: "lane", "row"."""
 
 
 class Stretches:

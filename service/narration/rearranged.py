@@ -8,6 +8,7 @@ from service.narration.sayings import Sayings
 from sim.actions import Copy, MoveThings, Rearranging, Replace, Swap
 from sim.session.edits import Applied
 from sim.state import SimState
+from sim.types import Kind
 from sim.world import Thing
 
 
@@ -43,18 +44,16 @@ def told_rearranged(sayings: Sayings, applied: Applied, action: Rearranging) -> 
             return say("swap", **parts, where=spot(one), other_where=spot(other))
         case Replace(kind=kind, by=by):
             count = len(applied.added)
-            things, others = sayings.things(kind, count), sayings.things(by, count)
-            now = how_many_now(sayings, run, [by], left=False)
+            nouns = {"things": sayings.things(kind, count), "others": sayings.things(by, count)}
+            now = how_many_now(sayings, run, [Kind(by)], left=False)
             if count == 1:
-                a, other = (sayings.say("words", "a", each) for each in (kind, by))
-                return say("replace_one", a=a, other=other, now=now)
-            return say("replace", count=count, things=things, others=others, now=now)
+                both = {"a": sayings.say("words", "a", kind), "other": sayings.say("words", "a", by)}
+                return say("replace_one", **both, now=now)
+            return say("replace", count=count, **nouns, now=now)
         case Copy(kind=kind):
             count, key = len(applied.added), "copy_one" if len(applied.added) == 1 else "copy_many"
-            where, now = (
-                place_of(sayings, run, applied.added, "add"),
-                how_many_now(sayings, run, [kind], left=False),
-            )
+            where = place_of(sayings, run, applied.added, "add")
+            now = how_many_now(sayings, run, [Kind(kind)], left=False)
             a = sayings.say("words", "a", kind)
             return say(key, a=a, count=count, things=sayings.things(kind, count), where=where, now=now)
 
@@ -76,8 +75,8 @@ def supposed_rearranged(sayings: Sayings, applied: Applied, action: Rearranging,
             count = len(applied.moved)
             return say("moved", count=count, things=sayings.things(kind, count))
         case Swap(first=first, second=second):
-            one, other = (sayings.things(each.kind, 1) for each in (first, second))
-            return say("swapped", one=one, other=other)
+            one, two = (sayings.things(each.kind, 1) for each in (first, second))
+            return say("swapped", one=one, other=two)
         case Replace(kind=kind, by=by):
             count = len(applied.added)
             things, others = sayings.things(kind, count), sayings.things(by, count)

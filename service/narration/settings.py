@@ -74,11 +74,11 @@ class Settings:
             )
         if name == "traffic" and value is None:
             return self._say("without_level", value=self._number(config.spawn_probability))
-        keys = ("is", name)
+        keys: tuple[str, ...] = ("is", name)
         if isinstance(self._sayings.words("settings", *keys), dict):
             keys = (*keys, "one" if value == 1 else "many")
-        metres = self._number(config.rows * config.cell_m)
-        told = self._say(*keys, value=self._value(name, value), metres=metres)
+        length = self._number(config.rows * config.cell_m)
+        told = self._say(*keys, value=self._value(name, value), metres=length)
         if name in AS_IT_IS and len(_available(name)) == 1:
             return self._say("always", told=told)
         if getattr(config, _EXACT.get(name, ""), None) is not None:

@@ -228,9 +228,12 @@ def _place_of(action: Add | Remove | SetCount | Rearranging) -> Where | None:
 
 def _read_where(values: Mapping[str, Any]) -> Where:
     """A place from JSON values, in which pairs are lists."""
-    parts = {key: tuple(value) if isinstance(value, list) else value for key, value in values.items()}
-    of = values.get("of")
-    return Where(**{**parts, "of": None if of is None else Landmark(**of)})
+    parts: dict[str, Any] = {
+        key: tuple(value) if isinstance(value, list) else value for key, value in values.items()
+    }
+    if parts.get("of") is not None:
+        parts["of"] = Landmark(**parts["of"])
+    return Where(**parts)
 
 
 def _fixed_place(where: Where | None, fact: Applied) -> Where | None:

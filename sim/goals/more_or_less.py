@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Final, NamedTuple, cast
+from typing import Final, NamedTuple
 
 from sim.actions import Add, Degree, GoalName, PlaceableKind, Remove, Where, WorldAction
 from sim.goals.budget import Budget
@@ -193,8 +193,7 @@ def _removing(state: SimState, stream: Stream) -> Remove | None:
 
 
 def _taking(thing: Thing) -> Remove:
-    kind = cast(PlaceableKind, thing.kind.value)
-    return Remove(kind=kind, count=1, where=Where(id=thing.id))
+    return Remove(kind=thing.kind.value, count=1, where=Where(id=thing.id))
 
 
 def _opened(state: SimState, budget: Budget) -> Finding | None:

@@ -126,7 +126,7 @@ def _names_no_cells(where: Where) -> bool:
 
 def _origin(of: Landmark | None, world: World) -> int:
     """The cell index that sides are seen from. Raises `EditError`."""
-    if of is None or of.kind == Kind.AV:
+    if of is None or of.kind == "av":
         return world.av
     if of.id is not None:
         found = world.index_of(of.id)

@@ -14,6 +14,8 @@ from service.grammar.fuzz.mutations import NEUTRAL, Mutant, Mutations
 from service.grammar.fuzz.pairs import VERDICTS, WRONG, all_pairs, random_pairs, verdict
 from service.grammar.fuzz.sayings import Sayings
 from service.grammar.parse_types import Ambiguous, Understood
+from service.grammar.paths import NEGATION
+from service.grammar.span_patterns import REPAIR
 from service.grammar.topic import ALONE
 from service.grammar.work_budget import MOST_STEPS, WorkBudget
 from service.resources import prompts_folder
@@ -89,7 +91,7 @@ class Fuzzer:
         return report
 
     def _mutants(self, kind: str, count: int, report: Report) -> Iterator[None]:
-        said, chance = self._sayings.all, random.Random(f"{self._seed} {kind}")
+        said, chance = self._sayings_for(kind), random.Random(f"{self._seed} {kind}")
         known: set[str] = set()
         for _ in range(count * 4):
             if len(known) == count or self._mutations is None:
@@ -100,6 +102,20 @@ class Fuzzer:
             known.add(mutant.text)
             self._read(mutant, report)
             yield
+
+    def _sayings_for(self, kind: str) -> Sequence[Saying]:
+        """The sayings in which a mutation of this kind surely means something else.
+
+        A question forbids nothing, a second negation may undo the first, and what is taken back or left out
+        may as well be something else.
+        """
+        if kind == NEUTRAL:
+            return self._sayings.all
+        said = self._sayings.all if kind in ("number", "swap", "drop") else self._sayings.requests
+        aside = (REPAIR, NEGATION)
+        return [
+            each for each in said if not any(c.startswith(aside) for c in self._language.concepts(each.text))
+        ]
 
     def _read(self, mutant: Mutant, report: Report) -> None:
         work = WorkBudget()

@@ -48,6 +48,11 @@ class Sayings:
         return tuple(saying for saying in read if saying is not None)
 
     @cached_property
+    def requests(self) -> tuple[Saying, ...]:
+        """Those that do something."""
+        return tuple(saying for saying in self.all if not saying.is_question)
+
+    @cached_property
     def joinable(self) -> tuple[Saying, ...]:
         """Those that say nothing about the sentence beside them: no corrections, no calls ("autopilot, …")."""
         aside = (REPAIR, INTERJECTION)

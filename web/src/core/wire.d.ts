@@ -62,6 +62,8 @@ export interface AdviceOption {
   meets_kmh: number;
   /** Mean speed at which harm is done; 0 counts where none is. */
   harm_kmh: number;
+  /** Of a person on foot: mean published risk of death at the speed of impact; 0 for other hazards. */
+  death: number;
 }
 
 /** The physics, with every quantity in the middle of its range. */
@@ -211,7 +213,7 @@ export interface Chat {
 }
 
 /** The choices, the one of least effort first. */
-export type Choice = "keep" | "brake" | "steer";
+export type Choice = "keep" | "brake" | "steer" | "brake_and_steer";
 
 /** One reading of an ambiguous sentence. */
 export interface ChoiceModel {
