@@ -54,7 +54,7 @@ class Crashes:
                 Part(0, self._happened(crash, decision, naming)),
                 *(Part(1, each) for each in self._not_as_seen(crash, naming)),
                 Part(1, self._by_whom(decision)),
-                Part(4, self._otherwise(crash, decision, naming)),
+                Part(2 if crash.free else 4, self._otherwise(crash, decision, naming)),
                 Part(3, flips),
                 Part(2, self._saving(crash)),
             ]
@@ -149,7 +149,7 @@ class Crashes:
         if saving.tick == crash.explanation.decision.tick:
             return self._say("saved_last", doing=doing, seconds=seconds)
         did = self._sayings.move(saving.made, "did")
-        return self._say("saved", tick=saving.tick, did=did, doing=doing, seconds=seconds)
+        return self._say("saved", tick=saving.tick, did=did, doing=doing)
 
     def _no_way(self, crash: Crash) -> str:
         """That no way led to the goal, as far back as it is known."""

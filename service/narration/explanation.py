@@ -51,7 +51,7 @@ class _Telling:
         imagined = self._naming.imagined([cause.id for cause in self._explanation.causes])
         phrases = [self._sayings.imagined(name, where) for name, where in imagined.items()]
         more = [self._say("imagined", told=phrase) for phrase in phrases if not is_told(phrase, text)]
-        return [Part(1, each) for each in dict.fromkeys(more)]
+        return [Part(0, each) for each in dict.fromkeys(more)]
 
     def why(self) -> list[Part]:
         """Why the move was made."""

@@ -7,6 +7,7 @@ because of another thing: then the other one is the cause, and the chain between
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -14,6 +15,7 @@ from itertools import combinations
 from sim.explain.facts import Link
 from sim.explain.intervention import Intervention
 from sim.explain.relevance import having_part, tried_singly
+from sim.perceive import Percept
 from sim.plan import Decision, Measure, Option, traits_of
 from sim.types import MOVES
 
@@ -70,14 +72,16 @@ class Flipping:
     """What flips a decision by itself, among many things and in few runs.
 
     Of a planner that weighs costs, things are taken away in groups. With less in the way no way gets dearer,
-    so where even without the whole group no other move is as good as the one taken, none of it flips it alone.
-    That leaves out what a mover does to others: those are looked for among the nearest, one by one.
+    so where even without the whole group no other move is as good as the one taken, none of it flips it
+    alone. Only what shares a row with a mover may make that one go otherwise, and so shut a way: that counts
+    as not tried.
     """
 
     def __init__(self, rerun: Intervention) -> None:
         """`rerun`: the decision."""
         self._rerun = rerun
         self._runs = MOST_RUNS
+        self._beside_movers = _beside_movers(rerun.percept)
         self.untried = 0
         """things that were not looked at, for want of runs"""
 
@@ -91,6 +95,7 @@ class Flipping:
         self._runs -= 1
         without = self._rerun.decision_without(names)
         if not self._another_is_as_good(without):
+            self.untried += len(self._beside_movers.intersection(names))
             return []
         if len(names) == 1:
             return [names[0]] if without.move is not self._rerun.decision.move else []
@@ -108,6 +113,14 @@ class Flipping:
             for option in without.options
             if option.move is not made
         )
+
+
+def _beside_movers(percept: Percept) -> frozenset[str]:
+    """Whatever is in a row with a mover other than itself."""
+    columns = percept.road.columns
+    movers = Counter(cell // columns for cell in percept.movers)
+    found = {name for cell, name in percept.hazards.items() if movers[cell // columns]}
+    return frozenset(found | {name for cell, name in percept.movers.items() if movers[cell // columns] > 1})
 
 
 def _held_by(rerun: Intervention, name: str, option: Option, by: Iterable[str]) -> Link | None:

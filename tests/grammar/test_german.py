@@ -27,8 +27,9 @@ UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 
 SAME_IN_BOTH = {
     "stop", "halt", "pause", "reset", "undo", "redo", "start", "status", "autopilot",
+    "okay", "ok", "okay, stop", "sorry", "hi", "hey, roadtalk",
     "planner: a*", "sensor: lidar", "seed 42", "seed = 42", "tempo 50 km/h",
-    "ok", "okay", "okay, stop", "hi", "hallo", "sorry", "hey, roadtalk",
+    "hallo",
 }  # fmt: skip
 """Words that both languages have, with the same meaning, or that are a typo of the other's."""
 

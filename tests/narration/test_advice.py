@@ -27,8 +27,8 @@ def said(hazard: str, distance_m: float, speed_kmh: float, weather: str = "clear
     [
         (
             ("pothole", 2, 40),
-            "Keep straight on and hold the wheel: at 40 km/h the pothole is 0.18 s away, and a driver takes "
-            "1 s to react. You need 20 m to stop, or 17 m to steer clear, and have 2 m. "
+            "Brake hard, late as it is: at 40 km/h the pothole is 0.18 s away, and a driver takes 1 s to "
+            "react. Half of all drivers need more than 20 m to stop, or 17 m to steer clear, and you have 2 m. "
             "It ends well in 19 of 100 cases.",
         ),
         (
@@ -38,19 +38,26 @@ def said(hazard: str, distance_m: float, speed_kmh: float, weather: str = "clear
         ),
         (
             ("pedestrian", 40, 50),
-            "Brake: at 50 km/h you stop within 28 m, and the pedestrian is 40 m away. "
-            "I am 91 % sure that this ends well, as long as the pedestrian stays put.",
+            "Brake and steer round the pedestrian, if there is room: at 50 km/h that takes 24 m, and you have "
+            "40 m. Braking alone, half of all drivers stop within 28 m, which is less sure. I am 96 % sure "
+            "that this ends well, as long as the pedestrian stays put. "
+            "Of people who are hit all the same, about 5 in 100 die of it.",
+        ),
+        (
+            ("barrier", 60, 50),
+            "Brake: at 50 km/h 95 of 100 drivers stop within 42 m, and the barrier is 60 m away. "
+            "I am more than 99 % sure that this ends well.",
         ),
         (
             ("vehicle", 60, 80, "rain"),
-            "Steer round the vehicle, if there is room: at 80 km/h on a wet road that takes 47 m, and you "
-            "have 60 m. Braking alone, you still do about 33 km/h when you get there. "
-            "It ends well in 79 of 100 cases, as long as the vehicle stays put.",
+            "Brake and steer round the vehicle, if there is room: at 80 km/h on a wet road that takes 45 m, "
+            "and you have 60 m. Braking alone, you still do about 33 km/h when you get there. "
+            "I am 85 % sure that this ends well, as long as the vehicle stays put.",
         ),
         (
             ("barrier", 12, 60),
             "Brake hard, late as it is: at 60 km/h the barrier is 0.72 s away, and a driver takes 1 s to "
-            "react. You need 37 m to stop, or 31 m to steer clear, and have 12 m. "
+            "react. Half of all drivers need more than 37 m to stop, or 31 m to steer clear, and you have 12 m. "
             "It ends well in fewer than 1 of 100 cases.",
         ),
     ],
@@ -79,7 +86,7 @@ def test_the_certainty_that_is_said_is_the_confidence() -> None:
         elif "fewer than 1 of" in text:
             assert percent <= 0.5
         else:
-            stated = re.search(r"(\d+) (?:% sure|of 100)", text)
+            stated = re.search(r"(\d+) (?:% sure|of 100 cases)", text)
             assert stated is not None
             assert abs(int(stated[1]) - percent) <= 0.5
 
@@ -87,8 +94,10 @@ def test_the_certainty_that_is_said_is_the_confidence() -> None:
 def test_numbers_said_are_among_the_facts() -> None:
     for advice in questions(500, seed=23):
         told = ADVICES.answer(Advised(advice, 3))
-        facts = [advice.distance_m, advice.speed_kmh, 100, 99, 1, 100 * advice.confidence]
+        facts = [advice.distance_m, advice.speed_kmh, 100, 99, 95, 1, 100 * advice.confidence]
         facts += [*told["physics"].values(), *(option["meets_kmh"] for option in told["options"])]
+        facts += [option["needs_m"] for option in told["options"]]
+        facts += [100 * advice.chosen.death / max(1e-9, 1 - advice.chosen.chance)]
         for number in map(float, NUMBER.findall(told["text"])):
             # as precisely as it was said: to half a unit, or a tenth below ten
             close = 0.51 if number >= 10 or number == 1 else 0.051

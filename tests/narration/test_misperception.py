@@ -67,7 +67,7 @@ def test_what_was_imagined_is_said_not_to_have_been_there() -> None:
     told = answer(timeline, about="why_not", move=Move.FORWARD)
     assert told["text"] == (
         "At tick 0 I did not go forward, because I saw a pothole right ahead, which was not there. "
-        "That way I arrive in 4 ticks, as I do now. "
+        "That way I arrive after 2 s, just as it is. "
         "Run again without seeing the pothole right ahead, I go forward."
     )
 

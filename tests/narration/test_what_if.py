@@ -36,33 +36,33 @@ def asked(run: SimState, *change: dict[str, Any]) -> dict[str, Any]:
         (
             [REMOVE],
             "If the pothole right ahead were not there, I would go forward now instead of moving left, "
-            "and arrive in 4 ticks rather than 5. "
-            "As it is, moving left costs me 1 tick against the best I could do.",
+            "and arrive in 2 s rather than 2.5 s. "
+            "As it is, moving left costs me 0.5 s against the best I could do.",
         ),
         (
             [{"do": "drive", "move": "right"}],
-            "If you had me move right now instead of moving left, I would arrive in 5 ticks all the same.",
+            "If you had me move right now instead of moving left, I would arrive in 2.5 s all the same.",
         ),
         (
             [{"do": "drive", "move": "forward"}],
-            "If you had me go forward, I would stay now instead of moving left, and arrive in 6 ticks "
-            "rather than 5. The cell you would send me to will not be free, so I would stay.",
+            "If you had me go forward, I would stay now instead of moving left, and arrive in 3 s "
+            "rather than 2.5 s. The cell you would send me to will not be free, so I would stay.",
         ),
         (
             [{"do": "prefer", "preference": "cautious"}],
             "If I kept my distance, nothing would change: I would make the same moves, and arrive in "
-            "5 ticks. But the planner “Priority rules of the source” does not weigh such wishes: "
+            "2.5 s. But the planner “Priority rules of the source” does not weigh such wishes: "
             "say “use A*” for one that does.",
         ),
         (
             [{"do": "set", "parameter": "planner", "value": "bfs"}],
             "If I planned with the quickest planner, I would move diagonally left now instead of moving "
-            "left, and arrive in 4 ticks rather than 5. "
-            "As it is, moving left costs me 1 tick against the best I could do.",
+            "left, and arrive in 2 s rather than 2.5 s. "
+            "As it is, moving left costs me 0.5 s against the best I could do.",
         ),
         (
             [{"do": "set", "parameter": "planner", "value": "priority"}],
-            "That would change nothing: it is so already. As it is, I arrive in 5 ticks.",
+            "That would change nothing: it is so already. As it is, I arrive in 2.5 s.",
         ),
         (
             [{"do": "remove", "kind": "barrier", "count": 1, "where": {"nearest": True}}],
@@ -76,7 +76,7 @@ def asked(run: SimState, *change: dict[str, Any]) -> dict[str, Any]:
         (
             [{"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [7, 1]}}, {"do": "pause"}],
             "If there were a barrier 15 m ahead in the fourth lane to my right, nothing would change: I "
-            "would make the same moves, and arrive in 5 ticks. The rest of that would make no difference "
+            "would make the same moves, and arrive in 2.5 s. The rest of that would make no difference "
             "on the road.",
         ),
     ],

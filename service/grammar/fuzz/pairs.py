@@ -33,7 +33,7 @@ Actions = Sequence[Mapping[str, Any]]
 def all_pairs(
     first: Sequence[Saying], second: Sequence[Saying], joiners: Sequence[str], most: int, seed: int
 ) -> Iterator[Joined]:
-    """Each of one list with each of another, in both orders, with each joiner; a sample where they are more."""
+    """Each of one list with each of another, in both orders, with each joiner; or a sample of these."""
     every = 2 * len(first) * len(second) * len(joiners)
     if every <= most:
         for one, other, joiner in product(first, second, joiners):
