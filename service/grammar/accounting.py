@@ -1,8 +1,8 @@
 """Accounts for the words that decide what the words beside them mean, and for which words made an action.
 
 "To", "by", "too", "for" say little alone and are glue in most places. Beside an amount or a value they change
-what it means: "to 20 km/h" is no "by 20 km/h", "too dark" is no "dark". Such a word is a *marker*. Which words
-are markers, and in which role, is data (`marker.…` in the lexicon). In its role a marker is never glue: its
+what it means: "to 20 km/h" is no "by 20 km/h", "too dark" is no "dark". Such a word is a *marker*. Which
+words are markers, and in which role, is data (`marker.…` in the lexicon). In its role a marker is never glue: its
 readings without a meaning are withheld before any frame is tried, so that only a frame with a use for it can
 take the sentence. Where none has, the refusal names the marker and what it stands with.
 """
@@ -16,7 +16,7 @@ from service.grammar.fragments import TAG
 from service.grammar.frames import Filled
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice, Withheld
 from service.grammar.lexicon import SECOND, Sense
-from service.grammar.noun_phrases import NOUN
+from service.grammar.noun_phrases import NOUN, QUANTITY
 from service.grammar.parse_types import Span
 from service.grammar.paths import SEPARATOR
 from service.grammar.tokens import Token
@@ -33,13 +33,19 @@ DEGREE = "marker.degree"
 THING = "marker.thing"
 """Role of words that belong to a noun for a thing after them: "that car" is not the vehicle itself."""
 
+POINTER = "marker.pointer"
+"""Role of those that point at a thing after them: in "copy that car" there is no "copy that"."""
+
 PHRASE = "marker.phrase"
 """Role of phrases whose words say nothing more alone, wherever they stand: "next to"."""
 
 CLAUSE = "marker.clause"
-"""Words that begin a clause of condition or time; in a name that is not in quotation marks they are no part of it."""
+"""Words that begin a clause of condition or time; they are no part of a name without quotation marks."""
 
-MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, PHRASE, CLAUSE))
+MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, POINTER, PHRASE, CLAUSE))
+
+LONGEST_BEFORE = 4
+"""Tokens of the longest phrase before a pointing word that is looked at."""
 
 VERB = "v."
 """What the concepts of verbs begin with; before one a word of degree is the sign of an infinitive."""
@@ -81,7 +87,7 @@ def withhold(lattice: Lattice, free: Set[str]) -> None:
 
 @contextmanager
 def restored(lattice: Lattice, withheld: Sequence[Withheld], end: int) -> Iterator[None]:
-    """For a while, words up to `end` may be all that was withheld, and be passed over with what they govern."""
+    """For a while, words may be all that was withheld, and be passed over with what they govern, up to `end`."""
     before = {each.start: list(lattice.edges[each.start]) for each in withheld}
     for each in withheld:
         here = lattice.edges[each.start]
@@ -107,7 +113,7 @@ def _operand(lattice: Lattice, marker: Edge) -> int | None:
             if here and all(edge.concept.startswith(VERB) for edge in here):
                 return None
             return max([edge.end for edge in here if edge.concept != GLUE], default=at + 1)
-        case role if role == THING:
+        case role if role in (THING, POINTER):
             return _thing_end(lattice, at)
         case role if role == MEASURE:
             return _amount_end(lattice, at, things=False)
@@ -159,7 +165,20 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
     if marker.concept == PHRASE:  # its first word decides: "in the rain", but "bring in the rain"
         here = [edge for edge in lattice.edges[marker.start] if edge.end <= marker.end]
         return [edge for edge in here if edge.concept in loose or edge.concept.startswith(SERVES)]
-    return [edge for edge in inside if edge.concept in loose]
+    found = [edge for edge in inside if edge.concept in loose]
+    if marker.concept == POINTER:
+        found += _ending_with(lattice, marker)
+    return found
+
+
+def _ending_with(lattice: Lattice, marker: Edge) -> list[Edge]:
+    """The edges that begin before a marker and end with it, but for quantities: "copy that"."""
+    return [
+        edge
+        for starting in lattice.edges[max(0, marker.start - LONGEST_BEFORE) : marker.start]
+        for edge in starting
+        if edge.end == marker.end and edge.concept != QUANTITY
+    ]
 
 
 def alignment(

@@ -302,18 +302,27 @@ class Divider:
             found = self._matcher.match(
                 self._stretches.make(start, end, given, negation=True), verbless=False
             )
+            if found is not None and given.verb and self._takes_place_out(part, context):
+                return None
             if found is not None:
                 return Clause(start, end, found[0], [], negated=True)
         return None
+
+    def _takes_place_out(self, part: Fragment, context: Context) -> bool:
+        """Whether it only says where something shall not be, which the place that was said leaves open."""
+        said = list(self._lattice.between(part.start, part.end))
+        keys = _places(said)
+        return (
+            bool(keys)
+            and not any(edge.concept.startswith("thing") for edge in said)
+            and not keys <= context.places
+        )
 
     def _excepts(self, part: Fragment, context: Context) -> bool:
         """Whether it takes something out of what was said: to leave it out would do more than was meant."""
         said = list(self._lattice.between(part.start, part.end))
         if any(edge.concept.startswith("v.") for edge in said):
             return False
-        if not any(isinstance(edge.sense.value, Amount) for edge in said):
-            keys = _places(said)
-            return bool(keys) and not keys <= context.places
         kinds = {edge.sense.value.of for edge in said if isinstance(edge.sense.value, Amount)}
         whole = context.noun is not None and context.noun.concept.endswith(_WHOLE)
         return context.everything or (

@@ -68,7 +68,7 @@ class Composition:
 
     def heads(self, joint: Filled, parts: Sequence[Fragment]) -> list[int]:
         """Which parts of a listing after the first are requests of their own."""
-        kept = [self._kept(joint, parts, at) for at in range(len(parts))]
+        kept = [_belongs(joint, parts, at) for at in range(len(parts))]
         return [
             at
             for at, part in enumerate(parts)
@@ -79,7 +79,7 @@ class Composition:
         """Whether a listing gives one of its parts another meaning than it has alone."""
         verbs = {action["do"] for action in joint[1]}
         for at, part in enumerate(parts):
-            own = None if self._kept(joint[0], parts, at) else self.alone(part)
+            own = None if _belongs(joint[0], parts, at) else self.alone(part)
             if own is None:
                 continue
             verb = self.verb_of_its_own(part) is not None
@@ -113,10 +113,6 @@ class Composition:
         leaning = self._matcher.match(self._stretches.make(part.start, part.end, context), verbless=False)
         return leaning if leaning is not None and asks(leaning[1]) else None
 
-    def _kept(self, joint: Filled, parts: Sequence[Fragment], at: int) -> bool:
-        """Whether the frame declares that words which are a request elsewhere belong to it."""
-        return _belongs(joint, parts, at) and (at > 0 or self.verb_of_its_own(parts[0]) is None)
-
     def _alone(self, part: Fragment, *, verbless: bool) -> Reading | None:
         key = part.start, part.end, verbless
         if key not in self._known:
@@ -128,7 +124,6 @@ class Composition:
 def asks(actions: Sequence[Mapping[str, Any]]) -> bool:
     """Whether one of the actions is a question."""
     return any(action["do"] in _QUESTIONS for action in actions)
-    return asks(actions)
 
 
 def _belongs(joint: Filled, parts: Sequence[Fragment], at: int) -> bool:

@@ -76,7 +76,7 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
 
 
 def _passes_on(lattice: Lattice, start: int, stop: int, end: int) -> bool:
-    """Whether a filler may be cut at its last word: "take that back then turn left", but not "now then, …"."""
+    """Whether a filler is cut at its last word: "take that back then turn left", not "now then, …"."""
     return _says_something(lattice, stop, end, marks=True) and any(
         edge.concept == SEPARATOR and edge.sense.value == THEN and edge.end == stop
         for edge in lattice.between(start + 1, stop)

@@ -179,7 +179,7 @@ def _inside_word(tokens: Sequence[Token], at: int, said: str) -> bool:
 
 
 def _fits(tokens: Sequence[Token], at: int, start: int, end: int, lexicon: Lexicon) -> bool:
-    """Whether words may be a name: after "save as" any but "demo if it works", after "load" not "five cars"."""
+    """Whether words may be a name: not "demo if it works", and after "load" not "five cars"."""
     short = _only(SHORT, lexicon, tokens, at, start)
     if short and end - start > MAX_SHORT:
         return False

@@ -3,7 +3,8 @@
 A noun and the quantities just before it become one edge whose concept says which kind of amount
 it is: `thing.counted` (five potholes), `.more` (two more), `.exact` (exactly nine), `.all` (every),
 `.the_many`, `.the_one`, `.that`, `.those`, `.bare_many`, `.bare_one`, `.any`, `.any_one`, `.none`, `.post`
-("potholes: 10"), `.too_many`, `.too_few`. Frames say which of these they take, and so what a definite plural means.
+("potholes: 10"), `.too_many`, `.too_few`. Frames say which of these they take, and so what a definite
+plural means.
 """
 
 from __future__ import annotations

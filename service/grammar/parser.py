@@ -32,13 +32,13 @@ from service.grammar.parse_types import (
     Span,
     Understood,
 )
-from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR
+from service.grammar.paths import ALLOWS, SEPARATOR
 from service.grammar.pointing import add_pointing
 from service.grammar.references import Unclear, add_referents
 from service.grammar.sentences import Sentences, Unsayable
 from service.grammar.small_talk import small_talk
 from service.grammar.subordinate import read_all
-from service.grammar.suggestions import Suggestions, meanings_of
+from service.grammar.suggestions import Suggestions, meanings_of, turned_round
 from service.grammar.tokens import Token
 from service.grammar.topic import Topic
 from service.grammar.unparsed_span import Gap, GapFinder
@@ -358,8 +358,8 @@ class Reading:
     ) -> Refused:
         suggestions: tuple[str, ...] = ()
         if self._suggests and reason != "negation":
-            meanings, negated = meanings_of(self._lattice), NEGATION in self._lattice.concepts
-            suggestions = self._language.suggestions.nearest(self._plain, meanings, harmless=negated, gap=gap)
+            meanings, turned = meanings_of(self._lattice), turned_round(self._lattice)
+            suggestions = self._language.suggestions.nearest(self._plain, meanings, harmless=turned, gap=gap)
         return Refused(self._text, reason, message, unparsed, understood, suggestions)
 
     def _stretches(self, unknown: list[int]) -> list[str]:

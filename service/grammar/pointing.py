@@ -40,12 +40,18 @@ POINTING = frozenset((RELATION, GOAL, BECOMES, EXCEPT, ONES, ALL_WORD)) | frozen
     (MEANT_THE, MEANT_SOME, GOAL_TOLD, GOAL_AT, ALL_EXCEPT, ALL_BUT, ALL_OTHERS, *BECOME)
 )
 """Every concept of this file: those of words, and those of the edges made from them."""
-_TRIGGERS = frozenset((RELATION, GOAL, BECOMES, EXCEPT)) | frozenset(
+_VERBS = frozenset(
     ("v.shift", "v.put", "v.exchange", "v.turn_into", "v.substitute", "v.copy", "v.were", "v.became")
 )
+_TRIGGERS = _VERBS | {RELATION, EXCEPT}
+_NOUNS = frozenset(("noun.thing.one", "noun.thing.many"))
 EVERYTHING = "everything"
 MAX_PARTS = 3
 """How many parts of a place may stand one after another."""
+MAX_PASSED = 4
+"""How many words without meaning may stand among them."""
+MAX_KINDS = 8
+"""How many kinds an exception may list."""
 _PLACES = ("side", "place")
 _BARE_SIDES = ({"side": "left"}, {"side": "right"})
 """What is no place to go to, but a way: "to the left"."""
@@ -73,17 +79,29 @@ class Becomes:
 
 def add_pointing(lattice: Lattice) -> None:
     """Adds an edge for everything that is pointed at. After noun phrases and references."""
-    if lattice.concepts.isdisjoint(_TRIGGERS):
+    concepts = lattice.concepts
+    if concepts.isdisjoint(_TRIGGERS) or not _names_things(lattice):
         return
-    _add_landmarks(lattice)
+    if RELATION in concepts:
+        _add_landmarks(lattice)
+    if EXCEPT in concepts:
+        _add_exceptions(lattice)
+    if concepts.isdisjoint(_VERBS):
+        return
     _add_goals(lattice)
     _add_kinds(lattice)
-    _add_exceptions(lattice)
     for at in range(lattice.size):
         lattice.edges[at] += [
             Edge(at, end, Sense(MEANT_THE if definite else MEANT_SOME, things))
             for end, things, definite in [*_things_at(lattice, at), *_placed_things(lattice, at)]
         ]
+
+
+def _names_things(lattice: Lattice) -> bool:
+    """Whether things on the road are named at all."""
+    return not lattice.concepts.isdisjoint(_NOUNS) or any(
+        edge.concept == "thing.id" for edge in lattice.all()
+    )
 
 
 def _things_at(
@@ -178,7 +196,7 @@ def _is_ego(lattice: Lattice, start: int, end: int) -> bool:
 
 
 def _places_from(
-    lattice: Lattice, at: int, parts: int = MAX_PARTS, *, staying: bool = False
+    lattice: Lattice, at: int, parts: int = MAX_PARTS, passed: int = MAX_PASSED, *, staying: bool = False
 ) -> Iterator[tuple[int, dict[str, Any]]]:
     """Where it ends, each place that the words from here tell, of one part or several.
 
@@ -191,7 +209,8 @@ def _places_from(
         if (concept == GLUE and not edge.sense.form) or concept == "prep":
             if not staying and any(e.concept == GOAL and e.end == edge.end for e in lattice.edges[at]):
                 continue  # "to" does not lead to where a thing is, but to where it shall be
-            yield from _places_from(lattice, edge.end, parts, staying=staying)
+            if passed:
+                yield from _places_from(lattice, edge.end, parts, passed - 1, staying=staying)
             continue
         part: dict[str, Any] | None = None
         if concept == "place" and isinstance(value, dict):
@@ -214,7 +233,7 @@ def _places_from(
 
 
 def _add_goals(lattice: Lattice) -> None:
-    """ "To lane 3", "behind that car": where things are to be; `goal.at` ("in lane 3") after verbs of putting."""
+    """ "To lane 3", "behind that car": where things are to be; `goal.at` ("in lane 3") is for putting."""
     for at in range(lattice.size):
         found = [
             Edge(at, end, Sense(GOAL_TOLD, where))

@@ -93,7 +93,7 @@ class Repair:
     @property
     def is_sure(self) -> bool:
         """Whether they do nothing else."""
-        return self._value == ALWAYS
+        return bool(self._value == ALWAYS)
 
     @property
     def phrase(self) -> str:
@@ -123,7 +123,7 @@ class Repair:
         return found
 
     def _stands_elsewhere(self, end: int) -> bool:
-        """Whether something of the same pattern as what is dropped is kept: else more than that is dropped."""
+        """Whether something of the same pattern as what is dropped is kept; else too much is dropped."""
         steps = steps_of(self._lattice)
         pattern = SpanPattern(steps, self._again, end, self._work)
         kept = (

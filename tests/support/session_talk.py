@@ -14,6 +14,10 @@ def rewind(ticks: int) -> dict[str, object]:
     return {"do": "rewind", "ticks": ticks}
 
 
+def rewind_to(moment: str | int) -> dict[str, object]:
+    return {"do": "rewind", "to": moment}
+
+
 def anew(session: Session) -> SimState:
     """The state that the present log leads to when it is played from the beginning."""
     timeline = Timeline(session.timeline.config)
@@ -32,6 +36,7 @@ SAID = st.lists(
     st.one_of(
         st.sampled_from([ADD, ADD_CARS, PAUSE, UNDO, REDO, UNDO, REDO, {"do": "resume"}, {"do": "reset"}]),
         st.integers(1, 12).map(rewind),
+        st.sampled_from(["crash", "episode", "start", 4]).map(rewind_to),
         st.sampled_from("ab").map(lambda name: {"do": "save", "name": name}),
         st.sampled_from("ab").map(lambda name: {"do": "load", "name": name}),
         st.just({"do": "step", "ticks": 3}),

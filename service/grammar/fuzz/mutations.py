@@ -1,8 +1,8 @@
 """Changes a sentence so that its words mean something else, or so that they do not.
 
 A mutation knows what it did: one that is `neutral` must leave the actions as they were, all others must not.
-That holds whatever the grammar makes of the words, so it is a judge of the grammar that is not the grammar. The
-words are in `fuzz.yaml` of a language.
+That holds whatever the grammar makes of the words, so the grammar is not its own judge. The words are in
+`fuzz.yaml` of a language.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Mutations:
     """Makes mutants of sentences, each kind in its turn."""
 
     def __init__(self, words: Mapping[str, Sequence[str]], seed: int) -> None:
-        """`words`: those that are put in, by the kind of mutation; `numbers` and `swapped` are lists of words."""
+        """`words`: those that are put in, by the kind of mutation."""
         self._words = words
         self._chance = random.Random(seed)
         self._kinds: dict[str, Callable[[list[str]], list[str] | None]] = {
@@ -52,7 +52,7 @@ class Mutations:
         return None if words is None or text == saying.text else Mutant(kind, saying, text)
 
     def _inserting(self, kind: str) -> Callable[[list[str]], list[str] | None]:
-        """Puts words of this kind in: at the end where they begin with "…", at the start where they end so."""
+        """Puts words of this kind in: at the end where "…" begins them, at the start where it ends them."""
 
         def insert(words: list[str]) -> list[str] | None:
             chosen = self._chance.choice(self._words[kind])

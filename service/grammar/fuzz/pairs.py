@@ -33,7 +33,7 @@ Actions = Sequence[Mapping[str, Any]]
 def all_pairs(
     first: Sequence[Saying], second: Sequence[Saying], joiners: Sequence[str], most: int, seed: int
 ) -> Iterator[Joined]:
-    """Each of one list with each of another, in both orders, with each joiner; a sample where they are more."""
+    """Each of one list with each of another, in both orders, with each joiner; or a sample of these."""
     every = 2 * len(first) * len(second) * len(joiners)
     if every <= most:
         for one, other, joiner in product(first, second, joiners):
@@ -43,10 +43,10 @@ def all_pairs(
     chance = random.Random(seed)
     for at in chance.sample(range(every), most):
         rest, turned = divmod(at, 2)
-        rest, joiner = divmod(rest, len(joiners))
+        rest, place = divmod(rest, len(joiners))
         a, b = divmod(rest, len(second))
         one, other = (second[b], first[a]) if turned else (first[a], second[b])
-        yield joined(one, other, joiners[joiner])
+        yield joined(one, other, joiners[place])
 
 
 def random_pairs(said: Sequence[Saying], joiners: Sequence[str], count: int, seed: int) -> Iterator[Joined]:

@@ -1,4 +1,4 @@
-"""A run of the fuzzer: what became of every mutant and pair, counted by kind, and those that are suspicious."""
+"""A run of the fuzzer: what became of every mutant and pair by kind, and which are suspicious."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from service.actions import dump
 from service.grammar.engine import Language
 from service.grammar.fuzz.mutations import NEUTRAL, Mutant, Mutations
 from service.grammar.fuzz.pairs import VERDICTS, WRONG, all_pairs, random_pairs, verdict
-from service.grammar.fuzz.sayings import Sayings
+from service.grammar.fuzz.sayings import Saying, Sayings
 from service.grammar.parse_types import Ambiguous, Understood
 from service.grammar.paths import NEGATION
 from service.grammar.span_patterns import REPAIR
@@ -78,7 +78,7 @@ class Fuzzer:
         return (*(self._mutations.kinds if self._mutations else ()), *(PAIRS if self._joiners else ()))
 
     def run(self, count: int, kinds: Sequence[str], tell: Callable[[int], None] = lambda _: None) -> Report:
-        """Reads about as many sentences, the same number of each kind; `tell` is called after some of them."""
+        """Reads about as many sentences, as many of each kind; `tell` is called after some of them."""
         report = Report()
         for kind in kinds:
             each = max(1, count // len(kinds))
@@ -110,7 +110,9 @@ class Fuzzer:
         may as well be something else.
         """
         if kind == NEUTRAL:
-            return self._sayings.all
+            return [
+                each for each in self._sayings.all if each.actions[-1]["do"] != "chat"
+            ]  # thanks are one more
         said = self._sayings.all if kind in ("number", "swap", "drop") else self._sayings.requests
         aside = (REPAIR, NEGATION)
         return [

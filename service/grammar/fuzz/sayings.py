@@ -54,12 +54,16 @@ class Sayings:
 
     @cached_property
     def joinable(self) -> tuple[Saying, ...]:
-        """Those that say nothing about the sentence beside them: no corrections, no calls ("autopilot, …")."""
+        """Those that say nothing about the sentence beside them: no correction, no call ("autopilot, …").
+
+        Small talk is none of them either: beside a request it is passed over.
+        """
         aside = (REPAIR, INTERJECTION)
         return tuple(
             saying
             for saying in self.all
-            if not any(each.startswith(aside) for each in self._language.concepts(saying.text))
+            if all(action["do"] != "chat" for action in saying.actions)
+            and not any(each.startswith(aside) for each in self._language.concepts(saying.text))
         )
 
     def read(self, text: str) -> Saying | None:
