@@ -23,6 +23,8 @@ BUT = "but"
 _MARKS = frozenset({"pause", STOP})
 """Separators that are punctuation."""
 
+DIRECTION = "dir"
+"""Concept of the ways to go."""
 INTERJECTION = "interjection"
 TAG = "tag"
 REPEATED = "repeated"
@@ -96,9 +98,18 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
                 if (e.sense.concept == SEPARATOR and (e.sense.value in _MARKS or e.sense.value == BUT))
                 or (e.sense.concept == COLON and e.end == e.start + 1)
             ]
-            if marks and _says_something(lattice, marks[0].end, end):
+            if marks and not _lists_ways(lattice, edge, marks[0].end) and _says_something(lattice, marks[0].end, end):
                 return max(mark.end for mark in marks)
     return start
+
+
+def _lists_ways(lattice: Lattice, call: Edge, at: int) -> bool:
+    """Whether a call is the first of several ways to go: "right, left, right", but "right, straight ahead"."""
+    ways = [edge.end for edge in lattice.edges[call.start] if edge.concept == DIRECTION]
+    if call.end not in ways or at >= lattice.size:
+        return False
+    after = {edge.end for edge in lattice.edges[at] if edge.concept == DIRECTION and edge.end < lattice.size}
+    return any(edge.concept == SEPARATOR for end in after for edge in lattice.edges[end])
 
 
 def _before_tag(lattice: Lattice, start: int, end: int) -> int:
