@@ -35,7 +35,7 @@ def orders(clauses: Sequence[Clause], lattice: Lattice) -> list[list[Clause]]:
         put_back = replace(said[0], after=THEN)
         found = [put_first, *moved[1:], put_back, *said[1:first], *said[last:]]
         sure = said[first].after == BUT or (len(said) == 2 and said[first].after != STOP)
-        return [found] if sure or word.sense.value == BEFOREHAND and first == at else [found, said]
+        return [found] if sure or (word.sense.value == BEFOREHAND and first == at) else [found, said]
     return [said]
 
 
@@ -46,7 +46,8 @@ def _word(clause: Clause, lattice: Lattice) -> Edge | None:
         (
             edge
             for edge in lattice.between(clause.start, clause.end)
-            if edge.concept == ORDER and not any(start < edge.end and edge.start < end for start, end in slots)
+            if edge.concept == ORDER
+            and not any(start < edge.end and edge.start < end for start, end in slots)
         ),
         None,
     )

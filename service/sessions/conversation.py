@@ -11,7 +11,10 @@ from collections import deque
 from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import asdict
+from functools import cache
 from typing import Any, TypeAlias
+
+from pydantic import TypeAdapter
 
 from service import actions as contract
 from service.actions import Action, Drop, Redo, Undo
@@ -28,7 +31,6 @@ from service.sessions.utterance import Outcome
 from sim.actions import (
     Add,
     Copy,
-    Landmark,
     MoveThings,
     Rearranging,
     Remove,
@@ -181,7 +183,7 @@ class Conversation:
         new._said, new._steps, new._listed = values["said"], values["steps"], tuple(values["listed"])
         new._undone, new._removed, new._kind = values["undone"], values["removed"], values["kind"]
         if where is not None:
-            new._where = _read_where(where)
+            new._where = _places().validate_python(where)
         if values["episode"] is not None:
             number, start = values["episode"]
             new._episode = number, start
@@ -226,14 +228,9 @@ def _place_of(action: Add | Remove | SetCount | Rearranging) -> Where | None:
             return None
 
 
-def _read_where(values: Mapping[str, Any]) -> Where:
-    """A place from JSON values, in which pairs are lists."""
-    parts: dict[str, Any] = {
-        key: tuple(value) if isinstance(value, list) else value for key, value in values.items()
-    }
-    if parts.get("of") is not None:
-        parts["of"] = Landmark(**parts["of"])
-    return Where(**parts)
+@cache
+def _places() -> TypeAdapter[Where]:
+    return TypeAdapter(Where)  # at the first use: building it takes as long as a small import
 
 
 def _fixed_place(where: Where | None, fact: Applied) -> Where | None:
