@@ -138,10 +138,10 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
         placed = any(edge.concept in _PLACES for edge in slots)
         for place, other in enumerate(clauses):
             if any(
-                action["do"] == verb
+                (action["do"] == verb or frame.only_negated)
                 and action.get("kind") in kinds
-                and (verb == "add" or action.get("count") == "all")
-                and ("where" not in action if placed else place < at)
+                and (verb == "add" or action.get("count") == "all" or frame.only_negated)
+                and ("where" not in action if placed else place < at or frame.only_negated)
                 for action in other.actions
             ):
                 return Contradiction((other, clause))
