@@ -126,7 +126,6 @@ class Composition:
 def asks(actions: Sequence[Mapping[str, Any]]) -> bool:
     """Whether one of the actions is a question."""
     return any(action["do"] in _QUESTIONS for action in actions)
-    return asks(actions)
 
 
 def _belongs(joint: Filled, parts: Sequence[Fragment], at: int) -> bool:

@@ -93,7 +93,7 @@ class Repair:
     @property
     def is_sure(self) -> bool:
         """Whether they do nothing else."""
-        return self._value == ALWAYS
+        return bool(self._value == ALWAYS)
 
     @property
     def phrase(self) -> str:

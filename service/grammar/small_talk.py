@@ -1,7 +1,7 @@
 """Small talk: sentences that are nothing but manners, each answered in a line.
 
-It is no frame: next to a request the same words are glue, and so they can never become a part of one, nor take
-the place of one. A sentence is small talk only where its phrases, fillers and marks cover every word.
+It is no frame: next to a request the same words are glue, and so they can neither become a part of one nor
+take its place. A sentence is small talk only where its phrases, fillers and marks cover every word.
 """
 
 from __future__ import annotations

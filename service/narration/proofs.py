@@ -43,7 +43,7 @@ class Proofs:
         told = dict.fromkeys(self._stand_in(cause, moves[cause.group]) for cause in others)
         room = max(1, MOST_TOLD - len(alone))
         parts += [Part(3 + at, text) for at, text in enumerate(list(told)[:room])]
-        return [*parts, Part(9, self._untried())]
+        return [*parts, Part(2, self._untried())]
 
     def _alone(self, alone: list[Cause], moves: dict[tuple[str, ...], Move], *, sole: bool) -> str:
         """What each flips the move by itself: up to three, and how many more."""

@@ -30,6 +30,7 @@ from sim.actions import (
     Copy,
     Drive,
     MoveThings,
+    PlaceableKind,
     Prefer,
     Remove,
     Replace,
@@ -200,11 +201,11 @@ class Replies:
         things = [thing for each in applied for thing in each.added]
         return self._moved("add", things, applied[-1].state)
 
-    def _exactly(self, kind: Kind, count: int, applied: Applied) -> str:
+    def _exactly(self, kind: PlaceableKind, count: int, applied: Applied) -> str:
         """How many there are of a kind now, and how many there were."""
         are = self._sayings.say("replies", "are", "one" if count == 1 else "many")
         things = self._sayings.things(kind, count or 2)
-        before = [change.before for change in applied.changes if change.path == KINDS[kind].plural]
+        before = [change.before for change in applied.changes if change.path == KINDS[Kind(kind)].plural]
         if not before:
             return self._say("set_count_already", are=are, count=count, things=things)
         form = {0: "none", 1: "one"}.get(before[0], "many")
@@ -255,7 +256,7 @@ class Replies:
 
     def _diff(self, changes: tuple[Change, ...], *, settings: bool = False) -> str:
         """The counts that changed, and with `settings` those too."""
-        told = []
+        told: list[tuple[str, object, object]] = []
         for change in changes:
             field = change.path.removeprefix("config.")
             if field == change.path and type(change.before) is int:

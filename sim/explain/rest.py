@@ -54,7 +54,9 @@ class Rest:
         single = {name for name in parts[:most] if rerun.without([name]) is not fact}
         further = Flipping(rerun)
         single.update(further.among(parts[most:]))
-        groups = {name: (name,) for name in parts if name in single and name not in known}
+        groups: dict[str, tuple[str, ...]] = {
+            name: (name,) for name in parts if name in single and name not in known
+        }
         settled = {*single, *(each for group in known.values() for each in group), *known}
         chain: list[Link] = []
         met = [(name, option) for option in hindered for name in option.causes if name not in settled]

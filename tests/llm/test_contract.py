@@ -18,7 +18,14 @@ from service.llm.schema import FORBIDDEN, MAY, schema
 from sim.session.settings import AS_IT_IS
 
 DEFS: dict[str, Any] = ACTIONS.json_schema()["$defs"]
-FREE_TEXT = {("Where", "id"), ("Landmark", "id"), ("Set", "value"), ("Ask", "value"), ("Drive", "ego"), ("SetMode", "ego")}
+FREE_TEXT = {
+    ("Where", "id"),
+    ("Landmark", "id"),
+    ("Set", "value"),
+    ("Ask", "value"),
+    ("Drive", "ego"),
+    ("SetMode", "ego"),
+}
 """Fields of a model's actions that take any text: each is checked by `reading`."""
 
 

@@ -28,7 +28,8 @@ def said(hazard: str, distance_m: float, speed_kmh: float, weather: str = "clear
         (
             ("pothole", 2, 40),
             "Brake hard, late as it is: at 40 km/h the pothole is 0.18 s away, and a driver takes 1 s to "
-            "react. Half of all drivers need more than 20 m to stop, or 17 m to steer clear, and you have 2 m. "
+            "react. Half of all drivers need more than 20 m to stop, or 17 m to steer clear, and you have "
+            "2 m. "
             "It ends well in 19 of 100 cases.",
         ),
         (
@@ -38,9 +39,9 @@ def said(hazard: str, distance_m: float, speed_kmh: float, weather: str = "clear
         ),
         (
             ("pedestrian", 40, 50),
-            "Brake and steer round the pedestrian, if there is room: at 50 km/h that takes 24 m, and you have "
-            "40 m. Braking alone, half of all drivers stop within 28 m, which is less sure. I am 96 % sure "
-            "that this ends well, as long as the pedestrian stays put. "
+            "Brake and steer round the pedestrian, if there is room: at 50 km/h that takes 24 m, and you "
+            "have 40 m. Braking alone, half of all drivers stop within 28 m, which is less sure. "
+            "I am 96 % sure that this ends well, as long as the pedestrian stays put. "
             "Of people who are hit all the same, about 5 in 100 die of it.",
         ),
         (
@@ -57,7 +58,8 @@ def said(hazard: str, distance_m: float, speed_kmh: float, weather: str = "clear
         (
             ("barrier", 12, 60),
             "Brake hard, late as it is: at 60 km/h the barrier is 0.72 s away, and a driver takes 1 s to "
-            "react. Half of all drivers need more than 37 m to stop, or 31 m to steer clear, and you have 12 m. "
+            "react. Half of all drivers need more than 37 m to stop, or 31 m to steer clear, and you have "
+            "12 m. "
             "It ends well in fewer than 1 of 100 cases.",
         ),
     ],

@@ -87,7 +87,7 @@ async def test_a_closed_road_is_told_of_when_it_is_made_and_when_it_begins_again
     session, clock, _ = await begun(CLOSED, paused=False)
     ((tick, kind, text),) = notices(session)
     assert (tick, kind) == (0, "no_way")
-    assert text.startswith("There is no way through: remove barrier-")
+    assert text.startswith("There is no way through: remove the barrier ")
     clock.tick()
     again = await do(session, {"do": "reset"})
     text = notices(session)[-1][2]

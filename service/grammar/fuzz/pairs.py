@@ -43,10 +43,10 @@ def all_pairs(
     chance = random.Random(seed)
     for at in chance.sample(range(every), most):
         rest, turned = divmod(at, 2)
-        rest, joiner = divmod(rest, len(joiners))
+        rest, place = divmod(rest, len(joiners))
         a, b = divmod(rest, len(second))
         one, other = (second[b], first[a]) if turned else (first[a], second[b])
-        yield joined(one, other, joiners[joiner])
+        yield joined(one, other, joiners[place])
 
 
 def random_pairs(said: Sequence[Saying], joiners: Sequence[str], count: int, seed: int) -> Iterator[Joined]:
