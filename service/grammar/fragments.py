@@ -98,7 +98,11 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
                 if (e.sense.concept == SEPARATOR and (e.sense.value in _MARKS or e.sense.value == BUT))
                 or (e.sense.concept == COLON and e.end == e.start + 1)
             ]
-            if marks and not _lists_ways(lattice, edge, marks[0].end) and _says_something(lattice, marks[0].end, end):
+            if (
+                marks
+                and not _lists_ways(lattice, edge, marks[0].end)
+                and _says_something(lattice, marks[0].end, end)
+            ):
                 return max(mark.end for mark in marks)
     return start
 

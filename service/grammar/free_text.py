@@ -126,8 +126,7 @@ def _open(tokens: Sequence[Token], at: int, lexicon: Lexicon, said: str) -> Name
 def end_of_name(tokens: Sequence[Token], start: int, end: int, lexicon: Lexicon) -> int:
     """Where a name ends before words that are no part of it: "please", "first"."""
     while end > start and (
-        _is(lexicon, tokens[end - 1], TRAILING)
-        or (end - 1 > start and _is(lexicon, tokens[end - 1], ORDER))
+        _is(lexicon, tokens[end - 1], TRAILING) or (end - 1 > start and _is(lexicon, tokens[end - 1], ORDER))
     ):
         end -= 1
     return end

@@ -46,7 +46,8 @@ def _word(clause: Clause, lattice: Lattice) -> Edge | None:
         (
             edge
             for edge in lattice.between(clause.start, clause.end)
-            if edge.concept == ORDER and not any(start < edge.end and edge.start < end for start, end in slots)
+            if edge.concept == ORDER
+            and not any(start < edge.end and edge.start < end for start, end in slots)
         ),
         None,
     )

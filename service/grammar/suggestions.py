@@ -116,7 +116,6 @@ class Saying:
             meant for group in groups if (meant := frozenset(each for each in said if each[0] in group))
         )
 
-
     @cached_property
     def needed(self) -> tuple[frozenset[str], ...]:
         """The concepts of each of them."""
