@@ -108,7 +108,7 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
 
 
 def _lists_ways(lattice: Lattice, call: Edge, at: int) -> bool:
-    """Whether a call is the first of several ways to go: "right, left, right", but "right, straight ahead"."""
+    """Whether a call is the first of several ways to go: "right, left, right", but "right, go on"."""
     ways = [edge.end for edge in lattice.edges[call.start] if edge.concept == DIRECTION]
     if call.end not in ways or at >= lattice.size:
         return False

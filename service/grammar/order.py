@@ -1,7 +1,7 @@
 """Puts the requests of an utterance in the order in which they shall be done: "reset, but save it first".
 
-Words of order ("first", "beforehand") at a later request put it before the ones that stand before it. Where it
-cannot be told how far back, both orders are offered.
+Words of order ("first", "beforehand") at a later request put it before the ones that stand before it.
+Where it cannot be told how far back, both orders are offered.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def orders(clauses: Sequence[Clause], lattice: Lattice) -> list[list[Clause]]:
         put_back = replace(said[0], after=THEN)
         found = [put_first, *moved[1:], put_back, *said[1:first], *said[last:]]
         sure = said[first].after == BUT or (len(said) == 2 and said[first].after != STOP)
-        return [found] if sure or word.sense.value == BEFOREHAND and first == at else [found, said]
+        return [found] if sure or (word.sense.value == BEFOREHAND and first == at) else [found, said]
     return [said]
 
 
