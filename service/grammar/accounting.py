@@ -3,8 +3,8 @@
 "To", "by", "too", "for" say little alone and are glue in most places. Beside an amount or a value they change
 what it means: "to 20 km/h" is no "by 20 km/h", "too dark" is no "dark". Such a word is a *marker*. Which
 words are markers, and in which role, is data (`marker.…` in the lexicon). In its role a marker is never glue:
-its readings without a meaning are withheld before any frame is tried, so that only a frame with a use for it can
-take the sentence. Where none has, the refusal names the marker and what it stands with.
+its readings without a meaning are withheld before any frame is tried, so that only a frame with a use for it
+can take the sentence. Where none has, the refusal names the marker and what it stands with.
 """
 
 from __future__ import annotations
