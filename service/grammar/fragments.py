@@ -108,12 +108,18 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
 
 
 def _lists_ways(lattice: Lattice, call: Edge, at: int) -> bool:
-    """Whether a call is the first of several ways to go: "right, left, right", but "right, straight ahead"."""
+    """Whether a call is the first of several ways to go: "right, left, right", but "right, go on"."""
     ways = [edge.end for edge in lattice.edges[call.start] if edge.concept == DIRECTION]
     if call.end not in ways or at >= lattice.size:
         return False
-    after = {edge.end for edge in lattice.edges[at] if edge.concept == DIRECTION and edge.end < lattice.size}
-    return any(edge.concept == SEPARATOR for end in after for edge in lattice.edges[end])
+    then = [e.end for e in lattice.edges[call.end] if e.concept == SEPARATOR and e.sense.value == THEN]
+    at = max(then, default=at)
+    here = lattice.edges[at] if at < lattice.size else []
+    after = {edge.end for edge in here if edge.concept == DIRECTION}
+    return any(
+        bool(then) if end == lattice.size else any(e.concept == SEPARATOR for e in lattice.edges[end])
+        for end in after
+    )
 
 
 def _before_tag(lattice: Lattice, start: int, end: int) -> int:

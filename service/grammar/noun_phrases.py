@@ -261,7 +261,7 @@ def _number_after(lattice: Lattice, phrase: Edge) -> Edge | None:
 
 
 def _change_after(lattice: Lattice, phrase: Edge) -> Edge | None:
-    """ "fifteen potholes more", "one lane less": a counted noun takes the word for a change that follows it."""
+    """ "fifteen potholes more", "one lane less": a counted noun takes the word for a change after it."""
     name, _, form = phrase.concept.partition(".")
     if form != "counted":
         return None

@@ -1,7 +1,7 @@
 """Puts the requests of an utterance in the order in which they shall be done: "reset, but save it first".
 
-Words of order ("first", "beforehand") at a later request put it before the ones that stand before it. Where it
-cannot be told how far back, both orders are offered.
+Words of order ("first", "beforehand") at a later request put it before the ones that stand before it.
+Where it cannot be told how far back, both orders are offered.
 """
 
 from __future__ import annotations
