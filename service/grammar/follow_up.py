@@ -15,10 +15,12 @@ from service.actions import Action, Advise, Ask
 from service.actions.table import traits_of
 from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO
 from service.grammar.engine import Language
+from service.grammar.incomplete import ask_elsewhere, ask_what_is_missing
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
 from service.grammar.sentences import Unsayable
+from service.grammar.setting_talk import read_of_setting
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
@@ -41,10 +43,18 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     "and left?" asks the same of the left.
     """
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
+    if alone or _asks(parsed):
+        of_setting = read_of_setting(language, text, topic, parsed)
+        if of_setting is not None:
+            return of_setting
     if not topic.actions or topic.undone:
-        return parsed
+        return _completed(language, text, parsed, alone=alone)
     if isinstance(parsed, Understood) and _takes_the_place(language, text, topic, parsed):
         return replace(parsed, actions=done_anew(topic, parsed.actions))
+    if isinstance(parsed, Understood | Refused) and (
+        elsewhere := ask_elsewhere(language, text, topic, parsed)
+    ):
+        return elsewhere
     if not (alone or _goes_on_asking(topic, parsed)):
         return parsed
     tokens = tokenise(normalise(text), language.data.contractions)
@@ -56,9 +66,18 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     except BudgetExceededError:
         return parsed
     if alone:
-        return found or parsed
+        return found or _completed(language, text, parsed, alone=alone)
     assert isinstance(parsed, Understood)
     return _after_question(language, leaning, found, parsed)
+
+
+def _completed(language: Language, text: str, parsed: Parse, *, alone: bool) -> Parse:
+    """The question about what a request lacks; else what it means by itself."""
+    return (ask_what_is_missing(language, text) if alone else None) or parsed
+
+
+def _asks(parsed: Parse) -> bool:
+    return isinstance(parsed, Understood) and all(traits_of(action).is_question for action in parsed.actions)
 
 
 def _takes_the_place(language: Language, text: str, topic: Topic, parsed: Understood) -> bool:

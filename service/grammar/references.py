@@ -19,7 +19,7 @@ from service.grammar.parse_types import Parse, Refused, Understood
 from service.grammar.said_before import take_back
 from service.grammar.tokens import Token
 from service.grammar.topic import Phrases, Topic
-from sim.actions import MoveThings, Remove, Replace, Swap, Where
+from sim.actions import Adjust, MoveThings, Remove, Replace, Set, Swap, Where
 from sim.types import kind_of
 
 REFERS = "refers"
@@ -32,7 +32,7 @@ MAX_CANDIDATES = 5
 _REFERRING = frozenset(
     (REFERS, "thing.that", "thing.those", "thing.the_one", "thing.last", "thing.last_counted")
 )
-_MOVED = (Remove, MoveThings, Replace, Swap)
+_MOVED = (Remove, MoveThings, Replace, Swap, Set, Adjust)
 """Actions after which "put it back" is to undo them."""
 
 _WHOLE = frozenset(("other", "others", "next", "both"))
@@ -130,6 +130,8 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return Edge(start, end, Sense("place", said))
         case {"nth": int() as number} if 0 < number <= len(topic.listed):
             return _things(start, end, topic.listed[number - 1 : number])
+        case {"its": str() as side}:
+            return _beside_it(edge, lattice, topic, side)
         case "next":
             return _next(start, end, topic)
         case "other" | "others" as which:
@@ -190,6 +192,22 @@ def _several(start: int, end: int, topic: Topic, *, both: bool) -> Edge | Unclea
     if not both and len(last) == 1 and kind_of(last[0]) == "pedestrian":
         return _things(start, end, last)  # "them" of one person
     return Unclear(start, end, (*before, *last)[-MAX_CANDIDATES:])
+
+
+def _beside_it(edge: Edge, lattice: Lattice, topic: Topic, side: str) -> Edge | Unclear | None:
+    """A place seen from the thing spoken of last ("to its left"); without one it is the vehicle's."""
+    start, end = edge.start, edge.end
+    moved = any(each.end == end and each.sense.concept.startswith("shift.") for each in lattice.edges[start])
+    if not topic.things or (moved and "v.shift" in lattice.concepts):
+        return None
+    lattice.edges[start] = [
+        each
+        for each in lattice.edges[start]
+        if each.end != end or each.sense.concept not in ("place", "side")
+    ]
+    if len(topic.things) > 1:
+        return Unclear(start, end)
+    return Edge(start, end, Sense("place", {"side": side, "of": {"id": topic.things[0]}}))
 
 
 def _next(start: int, end: int, topic: Topic) -> Edge | Unclear:

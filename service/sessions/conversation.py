@@ -27,6 +27,7 @@ from service.sessions.facts import (
 from service.sessions.utterance import Outcome
 from sim.actions import (
     Add,
+    Adjust,
     Copy,
     Landmark,
     MoveThings,
@@ -34,6 +35,7 @@ from sim.actions import (
     Remove,
     Replace,
     Reset,
+    Set,
     SetCount,
     Swap,
     Where,
@@ -102,6 +104,8 @@ class Conversation:
             self._things = ()  # "them" are all that the utterance added, not what its last part did
             if any(fact.added for fact in amounts):
                 self._listed = ()
+        elif any(isinstance(fact, Applied) and isinstance(fact.action, Set | Adjust) for fact in facts):
+            self._kind = None  # "one more" is one more lane
         for fact in amounts:
             self._record_change(fact)
         if outcome.answer is not None:
