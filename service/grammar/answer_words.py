@@ -50,7 +50,7 @@ TOO = "too"
 INSTEAD = "instead"
 """Concept of what makes the last request another one: "in lane 5 instead"."""
 
-YES, NO, NEITHER, DROP, LAST = "yes", "no", "neither", "drop", "last"
+YES, NO, NEITHER, DROP, LAST, WHICH = "yes", "no", "neither", "drop", "last", "which"
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +66,8 @@ class Answers:
     """a question for a setting that is only named: "and the courtesy?" """
     incomplete: tuple[Mapping[str, Any], ...] = ()
     """questions about requests that lack something (`ask`), and how each may be completed (`with`)"""
+    completes: tuple[str, ...] = ()
+    """words between a request that lacks something and what completes it: " to" """
     places: frozenset[str] = frozenset()
     """words that a place said alone may begin with: "in lane 4" """
 
@@ -80,6 +82,7 @@ class Answers:
             data.get("no_such_choice", ""),
             data.get("setting_asked", ""),
             tuple(data.get("incomplete", ())),
+            tuple(data.get("completes", ())),
             frozenset(data.get("places", ())),
         )
 
@@ -112,9 +115,11 @@ class Answers:
                     found = end, sense.value
         return found
 
-    def beginning(self, tokens: Sequence[Token], concept: str) -> int:
+    def beginning(
+        self, tokens: Sequence[Token], concept: str, numbers: Mapping[int, Found] | None = None
+    ) -> int:
         """How many tokens at the beginning are a phrase of a concept, at most."""
-        found = self.phrases.matches(tokens, 0, {}, {}) if tokens else ()
+        found = self.phrases.matches(tokens, 0, numbers or {}, {}) if tokens else ()
         return max((end for end, senses, _ in found if any(s.concept == concept for s in senses)), default=0)
 
     def ending(self, tokens: Sequence[Token], concept: str) -> int:

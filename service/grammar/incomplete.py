@@ -6,7 +6,9 @@ understood once something is added to it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any
 
 from service.actions import Action
 from service.grammar.engine import Language
@@ -22,26 +24,50 @@ MAX_WORDS = 6
 """Longer sentences lack more than one thing."""
 
 
-def ask_what_is_missing(language: Language, text: str) -> Ambiguous | None:
+def ask_what_is_missing(language: Language, text: str, topic: Topic) -> Ambiguous | None:
     """The question about what a sentence lacks, with ways to complete it; None where it lacks nothing known."""
     said = normalise(text).strip().rstrip(".?! ")
     if not said or len(tokenise(said, language.data.contractions)) > MAX_WORDS:
         return None
-    work = WorkBudget()
+    named = language.concepts(said)
+    concepts = named | {concept.partition("=")[0] for concept in named}
+    work, spoken_of = WorkBudget(), replace(topic, actions=(), kind=None, removed=False)
     for lacking in language.data.answers.incomplete:
+        part = _without(said, lacking.get("after"))
+        if part is None or not _names(concepts, lacking):
+            continue
         try:
-            meant = [
-                parsed.actions
+            parsed = [
+                language.read(each.format(said=part), spoken_of, work, asking=False)
                 for each in lacking["with"]
-                if isinstance(
-                    parsed := language.read(each.format(said=said), ALONE, work, asking=False), Understood
-                )
             ]
         except BudgetExceededError:
             return None
-        if (question := _question(language, text, lacking["ask"], meant)) is not None:
+        meant = [each.actions for each in parsed if isinstance(each, Understood)]
+        if (question := _question(language, text, lacking["ask"], _fitting(meant, lacking))) is not None:
             return question
     return None
+
+
+def _without(said: str, words: list[str] | None) -> str | None:
+    """What is said after one of some words; all of it where none are asked for; None where it has none."""
+    if words is None:
+        return said
+    return next((said[len(word) + 1 :] for word in words if said.startswith(f"{word} ")), None)
+
+
+def _names(concepts: frozenset[str], lacking: Mapping[str, Any]) -> bool:
+    """Whether a sentence has words of each group of concepts that are needed, and of no other."""
+    needed = all(not concepts.isdisjoint(group.split("|")) for group in lacking.get("needs", ()))
+    return needed and concepts.isdisjoint(lacking.get("lacks", ()))
+
+
+def _fitting(meant: list[tuple[Action, ...]], lacking: Mapping[str, Any]) -> list[tuple[Action, ...]]:
+    """Those completions that set a setting that is named (`of`), or all."""
+    settings = lacking.get("of")
+    if settings is None:
+        return meant
+    return [each for each in meant if all(getattr(one, "parameter", None) in settings for one in each)]
 
 
 def ask_elsewhere(language: Language, text: str, topic: Topic, parsed: Understood | Refused) -> Parse | None:

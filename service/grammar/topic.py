@@ -62,6 +62,10 @@ class Topic:
     """whether the latest change was an undo: then "again" is to redo it"""
     kind: str | None = None
     """what "two more" is more of"""
+    tick: int | None = None
+    """the tick that the last question or its answer named: "since then" """
+    others: int = 0
+    """how many more of that kind are on the road beside the things spoken of"""
     removed: bool = False
     """whether the latest amount was one taken away"""
     where: Where | None = None

@@ -14,7 +14,7 @@ from dataclasses import asdict
 from typing import Any, TypeAlias
 
 from service import actions as contract
-from service.actions import Action, Drop, Redo, Undo
+from service.actions import Action, Ask, Drop, Redo, Undo
 from service.grammar.topic import Phrases, Topic
 from service.sessions.facts import (
     Answerable,
@@ -41,6 +41,7 @@ from sim.actions import (
     Where,
 )
 from sim.session.edits import Applied
+from sim.types import kind_of
 from sim.world import World
 
 MAX_REMEMBERED = 200
@@ -62,6 +63,7 @@ class Conversation:
         self._steps = 0
         self._latest_steps: tuple[int, ...] = ()
         """steps of undo of the latest two changes"""
+        self._tick: int | None = None
         self._away: tuple[int, ...] = ()
         """how many things each of them took off the road or moved"""
         self._listed: tuple[str, ...] = ()
@@ -104,10 +106,11 @@ class Conversation:
             self._things = ()  # "them" are all that the utterance added, not what its last part did
             if any(fact.added for fact in amounts):
                 self._listed = ()
-        elif any(isinstance(fact, Applied) and isinstance(fact.action, Set | Adjust) for fact in facts):
+        elif any(isinstance(fact, Applied) and _changes_number(fact.action) for fact in facts):
             self._kind = None  # "one more" is one more lane
         for fact in amounts:
             self._record_change(fact)
+        self._tick = None if outcome.answer is None else _tick_told(outcome.answer, actions)
         if outcome.answer is not None:
             self._record_answer(outcome.answer, facts)
 
@@ -227,6 +230,8 @@ class Conversation:
             gone=frozenset(name for name in self._listed if name not in there),
             undone=self._undone,
             kind=self._kind,
+            tick=self._tick,
+            others=sum(kind_of(name) == self._kind for name in set(there) - set(self._things)),
             removed=self._removed,
             where=self._where,
             phrases=phrases,
@@ -236,6 +241,19 @@ class Conversation:
 
 def _episode(world: World) -> Episode:
     return world.episode, world.episode_start
+
+
+def _tick_told(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> int | None:
+    """The one tick that a question or its answer names."""
+    asked = {action.tick for action in actions if isinstance(action, Ask) and action.tick is not None}
+    call = (answer.get("history") or answer).get("closest_call")
+    told = asked or ({call["tick"]} if isinstance(call, Mapping) else set())
+    return told.pop() if len(told) == 1 else None
+
+
+def _changes_number(action: object) -> bool:
+    """Whether an action sets or changes a setting that is a number."""
+    return isinstance(action, Adjust) or (isinstance(action, Set) and not isinstance(action.value, str))
 
 
 def _named(actions: tuple[Action, ...]) -> tuple[str, ...]:
