@@ -29,13 +29,28 @@ FOLLOWS = "follows"
 CORRECTS = "corrects"
 """Concept of the beginnings of a sentence that corrects the one before: "I said", "make it"."""
 
+TOTAL = "total"
+"""Concept of the beginnings after which a number is how many there shall be: "make it twelve"."""
+
+SETTING = "setting"
+"""Concept of words that stand for the setting spoken of last: "it"."""
+
+OF_SETTING = "of_setting"
+"""Concept of sentences about that setting; their value is the sentence with its name: "a bit more"."""
+
+TO_VALUE = "to_value"
+"""Concept of the beginnings before another value of it; the sentence to read likewise: "back to"."""
+
+SO_MUCH = "so_much"
+"""Concept of numbers by which it is changed: "one more"; their value is `{up: n}` or `{down: n}`."""
+
 TOO = "too"
 """Concept of what may end a sentence that leans on the one before: "as well"."""
 
 INSTEAD = "instead"
 """Concept of what makes the last request another one: "in lane 5 instead"."""
 
-YES, NO, NEITHER, DROP, LAST = "yes", "no", "neither", "drop", "last"
+YES, NO, NEITHER, DROP, LAST, WHICH = "yes", "no", "neither", "drop", "last", "which"
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,13 +62,29 @@ class Answers:
     """words between a sentence and what stands in the place of a part of it: "I mean" """
     no_such_choice: str
     """what is said where a choice is answered that there is none of"""
+    setting_asked: str = ""
+    """a question for a setting that is only named: "and the courtesy?" """
+    incomplete: tuple[Mapping[str, Any], ...] = ()
+    """questions about requests that lack something (`ask`), and how each may be completed (`with`)"""
+    completes: tuple[str, ...] = ()
+    """words between a request that lacks something and what completes it: " to" """
+    places: frozenset[str] = frozenset()
+    """words that a place said alone may begin with: "in lane 4" """
 
     @classmethod
     def from_data(cls, data: Mapping[str, Any]) -> Answers:
         """The words of `answers.yaml`; empty for a language without that file."""
         phrases = Lexicon({})
         phrases.add_section(data.get("phrases", {}))
-        return cls(phrases, data.get("replaces", ""), data.get("no_such_choice", ""))
+        return cls(
+            phrases,
+            data.get("replaces", ""),
+            data.get("no_such_choice", ""),
+            data.get("setting_asked", ""),
+            tuple(data.get("incomplete", ())),
+            tuple(data.get("completes", ())),
+            frozenset(data.get("places", ())),
+        )
 
     def whole(
         self, tokens: Sequence[Token], numbers: Mapping[int, Found], ordinals: Mapping[int, int]
@@ -65,9 +96,30 @@ class Answers:
                     return sense.value  # type: ignore[no-any-return]
         return None
 
-    def beginning(self, tokens: Sequence[Token], concept: str) -> int:
+    def meant(
+        self, tokens: Sequence[Token], concept: str, numbers: Mapping[int, Found] | None = None
+    ) -> Any | None:
+        """The value of a concept that all of some tokens are a phrase of; None where they are not."""
+        for end, senses, _ in self.phrases.matches(tokens, 0, numbers or {}, {}) if tokens else ():
+            for sense in senses:
+                if end == len(tokens) and sense.concept == concept:
+                    return sense.value
+        return None
+
+    def longest(self, tokens: Sequence[Token], start: int, concept: str) -> tuple[int, Any]:
+        """The end and the value of the longest phrase of a concept that starts at a token; (start, None) without."""
+        found: tuple[int, Any] = (start, None)
+        for end, senses, _ in self.phrases.matches(tokens, start, {}, {}):
+            for sense in senses:
+                if sense.concept == concept and end > found[0]:
+                    found = end, sense.value
+        return found
+
+    def beginning(
+        self, tokens: Sequence[Token], concept: str, numbers: Mapping[int, Found] | None = None
+    ) -> int:
         """How many tokens at the beginning are a phrase of a concept, at most."""
-        found = self.phrases.matches(tokens, 0, {}, {}) if tokens else ()
+        found = self.phrases.matches(tokens, 0, numbers or {}, {}) if tokens else ()
         return max((end for end, senses, _ in found if any(s.concept == concept for s in senses)), default=0)
 
     def ending(self, tokens: Sequence[Token], concept: str) -> int:

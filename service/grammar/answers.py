@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from service.actions import Action
-from service.grammar.answer_words import AFTER, BEFORE, LAST, YES
+from service.grammar.answer_words import AFTER, BEFORE, LAST, WHICH, YES
 from service.grammar.engine import Language
 from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.numbers import Found
@@ -49,17 +49,17 @@ Answer = tuple[Action, ...] | NoChoice | NoSuchChoice
 
 
 def read_answer(
-    language: Language, text: str, choices: Sequence[Choice], *, literal: bool = False
+    language: Language, text: str, choices: Sequence[Choice], *, literal: bool = False, asked: str = ""
 ) -> Answer | None:
     """What a text answers to a question with these choices; None where it is no answer.
 
-    `literal`: the text is also a request of its own, so it picks a choice only with the words of the choice.
+    `asked`: the sentence that was asked about, which the answer may complete. `literal`: the text is also a request of its own, so it picks a choice only with the words of the choice.
     """
     tokens = _without_marks(tokenise(normalise(text), language.data.contractions))
     if not tokens or len(tokens) > MAX_WORDS or not choices:
         return None
     try:
-        return _Answering(language, choices).read(tokens, literal=literal)
+        return _Answering(language, choices, asked).read(tokens, literal=literal)
     except BudgetExceededError:
         return None
 
@@ -67,8 +67,9 @@ def read_answer(
 class _Answering:
     """One question, and the language in which it is answered."""
 
-    def __init__(self, language: Language, choices: Sequence[Choice]) -> None:
+    def __init__(self, language: Language, choices: Sequence[Choice], asked: str) -> None:
         self._language = language
+        self._asked = asked
         self._answers = language.data.answers
         self._choices = choices
         self._said = [self._words_and_meanings(choice) for choice in choices]
@@ -117,6 +118,8 @@ class _Answering:
                 return self._nth(number)
             case answer if answer == YES:
                 return self._choices[0].actions if len(self._choices) == 1 else NoChoice.UNCLEAR
+            case answer if answer == WHICH:
+                return NoChoice.UNCLEAR
             case answer if answer == LAST:
                 return self._choices[-1].actions
             case _:
@@ -159,6 +162,8 @@ class _Answering:
         if not replaces or not tokens:
             return None
         answer = " ".join(token.text for token in tokens)
+        if (completed := self._completed(answer)) is not None:
+            return completed
         meant: list[tuple[Action, ...]] = []
         for choice in self._choices:
             parsed = self._language.read(
@@ -169,6 +174,18 @@ class _Answering:
             if parsed.actions not in meant:
                 meant.append(parsed.actions)
         return meant[0] if len(meant) == 1 else None
+
+
+    def _completed(self, answer: str) -> tuple[Action, ...] | None:
+        """The sentence that was asked about with the answer at its end, where it is a request like the choices."""
+        shapes = [_shape(choice.actions) for choice in self._choices]
+        for between in self._answers.completes if self._asked else ():
+            parsed = self._language.read(
+                f"{self._asked.rstrip(' .?!')}{between} {answer}", ALONE, self._work, asking=False
+            )
+            if isinstance(parsed, Understood) and _shape(parsed.actions) in shapes:
+                return parsed.actions
+        return None
 
 
 def _shape(actions: Sequence[Action]) -> list[object]:

@@ -101,6 +101,8 @@ class _Maker:
             whole: list[dict[str, Any]] = self._slot(template.removeprefix("$"), None)
             return whole
         pointed = [edge for edge in self._filled.of("meant", "all_others") if len(edge.sense.value) > 1]
+        if "$first" in template.values():
+            return [self.action(template, None)]  # one action about two things
         if pointed:
             things = [(edge, thing) for edge in pointed for thing in edge.sense.value]
             each = [edge._replace(sense=edge.sense._replace(value=(thing,))) for edge, thing in things]
@@ -192,10 +194,11 @@ class _Maker:
 
     def _one_of_two(self, which: str) -> dict[str, Any]:
         """One of two things that change places, in the order said."""
-        things = sorted(self._filled.of("meant"), key=lambda edge: edge.start)
-        if len(things) != 2 or any(len(e.sense.value) > 1 or e.sense.value[0].count != 1 for e in things):
+        said = sorted(self._filled.of("meant"), key=lambda edge: edge.start)
+        things = [thing for edge in said for thing in edge.sense.value]
+        if len(things) != 2 or any(thing.count != 1 for thing in things):
             raise CannotBuild("not two things")
-        thing = things[0 if which == "first" else 1].sense.value[0]
+        thing = things[0 if which == "first" else 1]
         where = {} if thing.where is None else {"where": thing.where}
         return {"kind": thing.kind, **where}
 

@@ -13,16 +13,18 @@ from typing import Any, TypeAlias
 
 from service.actions import Action, Advise, Ask
 from service.actions.table import traits_of
-from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO
+from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO, TOTAL
 from service.grammar.engine import Language
+from service.grammar.incomplete import ask_elsewhere, ask_what_is_missing
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
 from service.grammar.sentences import Unsayable
+from service.grammar.setting_talk import read_of_setting
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
-from sim.actions import Add, Drive
+from sim.actions import Add, Drive, SetCount
 from sim.types import Move
 
 MAX_SHORT = 4
@@ -41,12 +43,20 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     "and left?" asks the same of the left.
     """
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
+    if alone or _asks(parsed):
+        of_setting = read_of_setting(language, text, topic, parsed)
+        if of_setting is not None:
+            return of_setting
     if not topic.actions or topic.undone:
-        return parsed
+        return _completed(language, text, topic, parsed)
     if isinstance(parsed, Understood) and _takes_the_place(language, text, topic, parsed):
         return replace(parsed, actions=done_anew(topic, parsed.actions))
+    if isinstance(parsed, Understood | Refused) and (
+        elsewhere := ask_elsewhere(language, text, topic, parsed)
+    ):
+        return elsewhere
     if not (alone or _goes_on_asking(topic, parsed)):
-        return parsed
+        return _completed(language, text, topic, parsed)
     tokens = tokenise(normalise(text), language.data.contractions)
     if len(tokens) > MAX_WORDS:
         return parsed
@@ -56,9 +66,19 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     except BudgetExceededError:
         return parsed
     if alone:
-        return found or parsed
+        return found or _completed(language, text, topic, parsed)
     assert isinstance(parsed, Understood)
     return _after_question(language, leaning, found, parsed)
+
+
+def _completed(language: Language, text: str, topic: Topic, parsed: Parse) -> Parse:
+    """The question about what a request lacks; else what it means by itself."""
+    lacking = isinstance(parsed, Refused) and parsed.reason in ("not_understood", "negation")
+    return (ask_what_is_missing(language, text, topic) if lacking else None) or parsed
+
+
+def _asks(parsed: Parse) -> bool:
+    return isinstance(parsed, Understood) and all(traits_of(action).is_question for action in parsed.actions)
 
 
 def _takes_the_place(language: Language, text: str, topic: Topic, parsed: Understood) -> bool:
@@ -133,6 +153,8 @@ class _Leaning:
         self._work = WorkBudget()
         follows = self._answers.beginning(self._tokens, FOLLOWS)
         self.done = topic.actions
+        asked = all(traits_of(action).is_question for action in topic.actions)
+        self._asks_on = asked and text.rstrip().endswith("?")
         self.goes_on = follows > 0
         """whether it begins as what goes on with the last request"""
         self.short = len(self._tokens) - follows <= MAX_SHORT
@@ -147,9 +169,12 @@ class _Leaning:
     def read(self) -> Parse | None:
         """The reading; None where the sentence does not lean on another, or fits nowhere."""
         tokens, answers = self._tokens, self._answers
-        follows, corrects = answers.beginning(tokens, FOLLOWS), answers.beginning(tokens, CORRECTS)
+        read = self._language.data.numbers.read
+        numbers = {at: found for at in range(min(len(tokens), MAX_SHORT)) if (found := read(tokens, at))}
+        follows = answers.beginning(tokens, FOLLOWS)
+        corrects = answers.beginning(tokens, CORRECTS, numbers)
         instead = answers.ending(tokens, INSTEAD)
-        if not (follows or corrects or instead):
+        if not (follows or corrects or instead or self._asks_on):
             return None
         correcting = bool(corrects > follows or instead)
         start = corrects if corrects > follows else follows
@@ -159,6 +184,8 @@ class _Leaning:
         done = self._topic.actions
         if correcting and not can_be_corrected(self._topic):
             return None
+        if correcting and (total := self._total(rest)) is not None:
+            return total
         base = said_before(self._language, self._topic, self._work)
         if base is None or not all(traits_of(action).amendable for action in done):
             return None
@@ -167,6 +194,27 @@ class _Leaning:
         if meant is not None:
             return Understood(self._text, self._whole(meant, correcting))
         return self._question(base, done, rest, correcting)
+
+    def _total(self, rest: Sequence[Token]) -> Parse | None:
+        """What "make it twelve" means of things that were added: how many there shall be of their kind.
+
+        Where there were others, so many more may be meant: that is asked about, unless others would go.
+        """
+        number, done = self._language.data.numbers.read(rest, 0), self._topic.actions
+        if not self._answers.beginning(self._tokens, TOTAL) or number is None or number.end != len(rest):
+            return None
+        if len(done) != 1 or not isinstance(number.value, int) or number.value < 1:
+            return None
+        if not isinstance(done[0], Add | SetCount) or getattr(done[0], "where", None) is not None:
+            return None
+        total: Actions = (SetCount(kind=done[0].kind, count=number.value),)
+        if isinstance(done[0], SetCount) or not self._topic.others:
+            return Understood(self._text, total)
+        anew = done_anew(self._topic, (Add(kind=done[0].kind, count=number.value),))
+        if number.value <= self._topic.others:
+            return Understood(self._text, anew)
+        told = tuple(Choice(self._language.sentence(each), each) for each in (total, anew))
+        return Ambiguous(self._text, self._language.data.messages["which"], told)
 
     def _whole(self, meant: Actions, correcting: bool) -> Actions:
         return done_anew(self._topic, meant) if correcting else meant

@@ -10,17 +10,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 
-from service.actions import dump
+from service.actions import Action, Undo, dump
 from service.grammar.fragments import REPEATED
 from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
 from service.grammar.parse_types import Parse, Refused, Understood
-from service.grammar.said_before import take_back
+from service.grammar.said_before import done_anew, take_back
 from service.grammar.tokens import Token
 from service.grammar.topic import Phrases, Topic
-from sim.actions import MoveThings, Remove, Replace, Swap, Where
-from sim.types import kind_of
+from sim.actions import Adjust, Drive, MoveThings, Remove, Replace, Set, Shift, Swap, Where
+from sim.types import Move, kind_of
 
 REFERS = "refers"
 """Concept of words that refer; their value says how."""
@@ -32,10 +32,10 @@ MAX_CANDIDATES = 5
 _REFERRING = frozenset(
     (REFERS, "thing.that", "thing.those", "thing.the_one", "thing.last", "thing.last_counted")
 )
-_MOVED = (Remove, MoveThings, Replace, Swap)
+_MOVED = (Remove, MoveThings, Replace, Swap, Set, Adjust)
 """Actions after which "put it back" is to undo them."""
 
-_WHOLE = frozenset(("other", "others"))
+_WHOLE = frozenset(("other", "others", "next", "both"))
 """References of several words that are small words of other requests by themselves."""
 
 _OPPOSITE = {"left": "right", "right": "left"}
@@ -110,8 +110,15 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return _things(start, end, topic.things)
         case "one":
             return Unclear(start, end, topic.things[-MAX_CANDIDATES:])
-        case "all" if topic.things:
+        case "all" if len(topic.things) > 1:
             return _things(start, end, topic.things)
+        case "all" | "both" as which:
+            return _several(start, end, topic, both=which == "both")
+        case "person" if len(topic.things) == 1 and kind_of(topic.things[0]) == "pedestrian":
+            return _things(start, end, topic.things)
+        case "person":
+            people = tuple(name for name in topic.things if kind_of(name) == "pedestrian")
+            return Unclear(start, end, people[-MAX_CANDIDATES:])
         case "last" if topic.added:
             return _things(start, end, topic.added[-1:])
         case "again" if topic.undone:
@@ -123,10 +130,21 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return Edge(start, end, Sense("place", said))
         case {"nth": int() as number} if 0 < number <= len(topic.listed):
             return _things(start, end, topic.listed[number - 1 : number])
+        case "opposite" if (turned := _turned(topic)) is not None:
+            return Edge(start, end, Sense(REPEATED, dump(done_anew(topic, turned))))
+        case "since" if topic.tick is not None:
+            asked = [{"do": "ask", "about": "history", "what": "since", "tick": topic.tick}]
+            return Edge(start, end, Sense(REPEATED, asked))
+        case {"its": str() as side}:
+            return _beside_it(edge, lattice, topic, side)
+        case "next":
+            return _next(start, end, topic)
         case "other" | "others" as which:
             return _others(start, end, topic, one=which == "other")
         case "back" if _took_away(topic):
             return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
+        case "back_both" | "undo_both" as which if steps := _steps_of_two(topic, put_back=which == "back_both"):
+            return Edge(start, end, Sense(REPEATED, dump((Undo(steps=steps if steps > 1 else None),))))
         case "not_that" if _pointed_at(topic):
             return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
         case "closest" if topic.listed:
@@ -166,6 +184,45 @@ def _keep_whole(lattice: Lattice, outer: Edge) -> None:
         ]
 
 
+def _several(start: int, end: int, topic: Topic, *, both: bool) -> Edge | Unclear:
+    """The things a plural stands for where one was spoken of last: that one, and the one before it.
+
+    "Both" are two things; of more, or of one alone, nothing is guessed.
+    """
+    last, before = topic.things, topic.before
+    if len(last) == 2 or (not both and last and not before):
+        return _things(start, end, last)
+    if len(last) == len(before) == 1:
+        return _things(start, end, (*before, *last))
+    if not both and len(last) == 1 and kind_of(last[0]) == "pedestrian":
+        return _things(start, end, last)  # "them" of one person
+    return Unclear(start, end, (*before, *last)[-MAX_CANDIDATES:])
+
+
+def _beside_it(edge: Edge, lattice: Lattice, topic: Topic, side: str) -> Edge | Unclear | None:
+    """A place seen from the thing spoken of last ("to its left"); without one it is the vehicle's."""
+    start, end = edge.start, edge.end
+    moved = any(each.end == end and each.sense.concept.startswith("shift.") for each in lattice.edges[start])
+    if not topic.things or (moved and "v.shift" in lattice.concepts):
+        return None
+    lattice.edges[start] = [
+        each
+        for each in lattice.edges[start]
+        if each.end != end or each.sense.concept not in ("place", "side")
+    ]
+    if len(topic.things) > 1:
+        return Unclear(start, end)
+    return Edge(start, end, Sense("place", {"side": side, "of": {"id": topic.things[0]}}))
+
+
+def _next(start: int, end: int, topic: Topic) -> Edge | Unclear:
+    """The thing after the one that was named last, in the order in which things were told."""
+    places = [topic.listed.index(name) for name in topic.named if name in topic.listed]
+    after = topic.listed[places[-1] + 1 :] if places else ()
+    left = tuple(name for name in after if name not in topic.gone)
+    return _things(start, end, left[:1]) if left else Unclear(start, end)
+
+
 def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:
     """Those of what was told last that were not just spoken of."""
     there = tuple(name for name in topic.listed if name not in topic.gone)
@@ -173,6 +230,33 @@ def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:
     if not left or (one and len(left) > 1):
         return Unclear(start, end, left[-MAX_CANDIDATES:])
     return _things(start, end, left)
+
+
+def _turned(topic: Topic) -> tuple[Action, ...] | None:
+    """The last request with its direction turned round; None where it had none."""
+    if len(topic.actions) != 1 or topic.undone:
+        return None
+    match topic.actions[0]:
+        case Drive(move=Move.LEFT | Move.RIGHT as move) as drive:
+            return (replace(drive, move=Move.RIGHT if move is Move.LEFT else Move.LEFT),)
+        case MoveThings(by=Shift(side="left" | "right" as side) as by) as move:
+            return (replace(move, by=replace(by, side=_OPPOSITE[side])),)
+        case _:
+            return None
+
+
+def _steps_of_two(topic: Topic, *, put_back: bool) -> int:
+    """How many steps of undo take back two changes: those of the last request, or of it and the one before.
+
+    `put_back`: two things that were taken off the road or moved. 0 where it is not two.
+    """
+    if topic.undone or not topic.steps:
+        return 0
+    if topic.away[-1:] == (2,) or (not put_back and len(topic.actions) == 2):
+        return topic.steps
+    if len(topic.actions) != 1 or not topic.steps_before or (put_back and topic.away != (1, 1)):
+        return 0
+    return topic.steps + topic.steps_before
 
 
 def _took_away(topic: Topic) -> bool:

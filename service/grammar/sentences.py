@@ -66,6 +66,14 @@ class Sentences(ThingSentences):
         named = self._words.get("things", {}).get(kind)
         return {} if named is None else {"one": named[0], "many": named[1]}
 
+    def parameter(self, name: str) -> str:
+        """What a setting is called. Raises `Unsayable`."""
+        return self._word("parameters", name)
+
+    def value(self, parameter: str, name: str) -> str:
+        """What a value of a setting is called. Raises `Unsayable`."""
+        return self._value(parameter, name)
+
     def sentence(self, actions: Sequence[Action]) -> str:
         """One sentence for all of them, in order. Raises `Unsayable`."""
         if not actions or not self._words:

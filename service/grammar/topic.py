@@ -38,6 +38,8 @@ class Topic:
 
     things: tuple[str, ...] = ()
     """ids of what was last added, moved or told about, still on the road: "it", "them" """
+    before: tuple[str, ...] = ()
+    """ids of what was spoken of before those: "both" of two that were added one by one """
     added: tuple[str, ...] = ()
     """ids of all that was added by someone and is still there, the latest last: "the last pothole" """
     actions: tuple[Action, ...] = ()
@@ -46,6 +48,12 @@ class Topic:
     """how that was said; empty for typed actions"""
     steps: int = 0
     """how many steps of undo take it back; a correction of a correction takes back both"""
+    steps_before: int = 0
+    """the same of the change before the last one; 0 where there is none"""
+    away: tuple[int, ...] = ()
+    """how many things each of the latest two changes took off the road or moved"""
+    named: tuple[str, ...] = ()
+    """ids that the last request was about: "the next one" is after them"""
     listed: tuple[str, ...] = ()
     """ids in the order in which they were last told or added: "the second one" """
     gone: frozenset[str] = frozenset()
@@ -54,6 +62,10 @@ class Topic:
     """whether the latest change was an undo: then "again" is to redo it"""
     kind: str | None = None
     """what "two more" is more of"""
+    tick: int | None = None
+    """the tick that the last question or its answer named: "since then" """
+    others: int = 0
+    """how many more of that kind are on the road beside the things spoken of"""
     removed: bool = False
     """whether the latest amount was one taken away"""
     where: Where | None = None

@@ -47,7 +47,7 @@ def answered(language: Any, code: str, text: str, parse: Parse, pending: Pending
         return parse
     choices = [Choice(each.text, each.actions) for each in pending.choices]
     literal = not isinstance(parse, Refused) or code != pending.language
-    answer = read_answer(language, text, choices, literal=literal)
+    answer = read_answer(language, text, choices, literal=literal, asked=pending.text)
     match answer:
         case None:
             return parse

@@ -35,7 +35,8 @@ class Scenes:
         kind = None if asked.ask.kind is None else Kind(asked.ask.kind)
         scene = describe_percept(sense(run)[0], run.config)
         wrong = misperception(run).of(kind)
-        text = " ".join([self.text(scene, run, kind), *self._not_as_seen(wrong, run)])
+        counting = asked.supposes == "number"
+        text = " ".join([self.text(scene, run, kind, counting=counting), *self._not_as_seen(wrong, run)])
         found = scene_json(scene, kind, run.config.cell_m, run.config.step_seconds)
         return plain(self._sayings, asked.ask, run, text) | found | misperception_json(wrong)
 
@@ -52,10 +53,12 @@ class Scenes:
                 told.append(self._sayings.say("scene", key, *form, things=self._sayings.joined(shown)))
         return told
 
-    def text(self, scene: Scene, run: SimState, kind: Kind | None) -> str:
-        """What is seen, or what of one kind. `run`: the moment the scene is of."""
+    def text(self, scene: Scene, run: SimState, kind: Kind | None, *, counting: bool = False) -> str:
+        """What is seen, or what of one kind. `run`: the moment the scene is of; `counting`: how many first."""
         told = _Told(self._sayings, run, scene)
-        return told.everything() if kind is None else told.kind(kind)
+        if kind is None:
+            return told.everything()
+        return told.number(kind) if counting else told.kind(kind)
 
 
 class _Told:
@@ -97,16 +100,32 @@ class _Told:
             )
         return " ".join(told)
 
+    def number(self, kind: Kind) -> str:
+        """How many there are first; then those ahead, the nearest first."""
+        things = self._scene.of(kind)
+        if not things:
+            return self._say("number_none", things=self._noun(kind, 2))
+        ahead = sorted((thing for thing in things if thing.rows > 0), key=lambda thing: thing.rows)
+        if not ahead:
+            return self._say("number_none_ahead", total=len(things))
+        key = "number_found" if len(ahead) == len(things) else "number_found_ahead"
+        told = self._say(key, total=len(things), ahead=len(ahead), listed=self._listed(ahead))
+        return " ".join([told, *self._met(ahead)])
+
     def _ahead(self, ahead: Sequence[Detection], rest: int) -> str:
         """Those ahead; `rest`: how many there are besides."""
         if len(ahead) == 1:
             return self._say("single_ahead", one=self._one(ahead[0]))
-        shown = ahead if len(ahead) <= MAX_TOLD + 1 else ahead[:MAX_TOLD]
+        key = "found_ahead" if rest else "found"
+        return self._say(key, count=self._count(len(ahead)), listed=self._listed(ahead))
+
+    def _listed(self, things: Sequence[Detection]) -> str:
+        """The first of some things, and how many more there are."""
+        shown = things if len(things) <= MAX_TOLD + 1 else things[:MAX_TOLD]
         parts = [self._one(thing) for thing in shown]
-        if len(shown) < len(ahead):
-            parts.append(self._say("more", count=self._count(len(ahead) - len(shown))))
-        key, listed = "found_ahead" if rest else "found", self._sayings.joined(parts)
-        return self._say(key, count=self._count(len(ahead)), listed=listed)
+        if len(shown) < len(things):
+            parts.append(self._say("more", count=self._count(len(things) - len(shown))))
+        return self._sayings.joined(parts)
 
     def _counts(self) -> str:
         seen = self._scene.seen

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from pydantic import TypeAdapter
 
 from service import actions as contract
-from service.actions import Action, Drop, Redo, Undo
+from service.actions import Action, Ask, Drop, Redo, Undo
 from service.grammar.topic import Phrases, Topic
 from service.sessions.facts import (
     Answerable,
@@ -30,17 +30,20 @@ from service.sessions.facts import (
 from service.sessions.utterance import Outcome
 from sim.actions import (
     Add,
+    Adjust,
     Copy,
     MoveThings,
     Rearranging,
     Remove,
     Replace,
     Reset,
+    Set,
     SetCount,
     Swap,
     Where,
 )
 from sim.session.edits import Applied
+from sim.types import kind_of
 from sim.world import World
 
 MAX_REMEMBERED = 200
@@ -55,10 +58,16 @@ class Conversation:
 
     def __init__(self) -> None:
         self._things: tuple[str, ...] = ()
+        self._before: tuple[str, ...] = ()
         self._added: deque[str] = deque(maxlen=MAX_REMEMBERED)
         self._actions: tuple[Action, ...] = ()
         self._said = ""
         self._steps = 0
+        self._latest_steps: tuple[int, ...] = ()
+        """steps of undo of the latest two changes"""
+        self._tick: int | None = None
+        self._away: tuple[int, ...] = ()
+        """how many things each of them took off the road or moved"""
         self._listed: tuple[str, ...] = ()
         self._undone = False
         self._kind: str | None = None
@@ -95,11 +104,15 @@ class Conversation:
             self._undone = False  # time has passed, or stands still: "again" is about that
         amounts = [fact for fact in facts if isinstance(fact, Applied) and _moves_things(fact)]
         if amounts:
+            self._before = self._things
             self._things = ()  # "them" are all that the utterance added, not what its last part did
             if any(fact.added for fact in amounts):
                 self._listed = ()
+        elif any(isinstance(fact, Applied) and _changes_number(fact.action) for fact in facts):
+            self._kind = None  # "one more" is one more lane
         for fact in amounts:
             self._record_change(fact)
+        self._tick = None if outcome.answer is None else _tick_told(outcome.answer, actions)
         if outcome.answer is not None:
             self._record_answer(outcome.answer, facts)
 
@@ -112,10 +125,17 @@ class Conversation:
         if any(isinstance(action, Undo | Redo | Drop) for action in own):
             if not all(isinstance(action, Drop) for action in own):
                 self._steps = 0
+                self._latest_steps = self._away = ()
             return
         taken_back = sum(fact.steps for fact in facts[:1] if isinstance(fact, Undone))
         self._actions, self._steps = own, 1 + taken_back if step else 0
         self._said = "" if begins_with_undo else text or ""
+        if step:
+            kept = () if taken_back else self._latest_steps
+            self._latest_steps = (*kept, self._steps)[-2:]
+            changed = [fact for fact in facts if isinstance(fact, Applied)]
+            away = sum(len(fact.removed) + len(fact.moved) for fact in changed)
+            self._away = (*(() if taken_back else self._away), away)[-2:]
 
     def _record_change(self, fact: Applied) -> None:
         action = fact.action
@@ -144,7 +164,7 @@ class Conversation:
         self._set_episode(asked[-1].timeline.state.world)
         self._listed = told or seen
         if told or asked[-1].ask.kind is not None:  # all that is seen is too much for "them"
-            self._things = told or seen
+            self._before, self._things = self._things, told or seen
 
     def _set_episode(self, world: World) -> None:
         """Forget all things unless they belong to the episode of this world."""
@@ -154,6 +174,7 @@ class Conversation:
 
     def _forget_things(self) -> None:
         self._things = ()
+        self._before = ()
         self._listed = ()
         self._added.clear()
 
@@ -161,10 +182,13 @@ class Conversation:
         """The memory as JSON values."""
         return {
             "things": [*self._things],
+            "before": [*self._before],
             "added": [*self._added],
             "actions": contract.dump(self._actions),
             "said": self._said,
             "steps": self._steps,
+            "latest_steps": [*self._latest_steps],
+            "away": [*self._away],
             "listed": [*self._listed],
             "undone": self._undone,
             "kind": self._kind,
@@ -177,10 +201,12 @@ class Conversation:
     def from_json(cls, values: Mapping[str, Any]) -> Conversation:
         """The memory from JSON values. Raises `ValueError`, `TypeError` or `LookupError`."""
         new, where = cls(), values["where"]
-        new._things = tuple(values["things"])
+        new._things, new._before = tuple(values["things"]), tuple(values.get("before", ()))
         new._added.extend(values["added"])
         new._actions = contract.load(values["actions"])
         new._said, new._steps, new._listed = values["said"], values["steps"], tuple(values["listed"])
+        new._latest_steps = tuple(values.get("latest_steps", ()))
+        new._away = tuple(values.get("away", ()))
         new._undone, new._removed, new._kind = values["undone"], values["removed"], values["kind"]
         if where is not None:
             new._where = _places().validate_python(where)
@@ -194,14 +220,20 @@ class Conversation:
         there = {*world.movers.values(), *world.hazards.values()} if self._episode == _episode(world) else ()
         return Topic(
             things=tuple(name for name in self._things if name in there),
+            before=tuple(name for name in self._before if name in there and name not in self._things),
             added=tuple(name for name in self._added if name in there),
             actions=self._actions,
             said=self._said,
             steps=self._steps,
+            steps_before=self._latest_steps[0] if len(self._latest_steps) > 1 else 0,
+            away=self._away,
+            named=_named(self._actions),
             listed=self._listed if there else (),
             gone=frozenset(name for name in self._listed if name not in there),
             undone=self._undone,
             kind=self._kind,
+            tick=self._tick,
+            others=sum(kind_of(name) == self._kind for name in set(there) - set(self._things)),
             removed=self._removed,
             where=self._where,
             phrases=phrases,
@@ -211,6 +243,25 @@ class Conversation:
 
 def _episode(world: World) -> Episode:
     return world.episode, world.episode_start
+
+
+def _tick_told(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> int | None:
+    """The one tick that a question or its answer names."""
+    asked = {action.tick for action in actions if isinstance(action, Ask) and action.tick is not None}
+    call = (answer.get("history") or answer).get("closest_call")
+    told = asked or ({call["tick"]} if isinstance(call, Mapping) else set())
+    return told.pop() if len(told) == 1 else None
+
+
+def _changes_number(action: object) -> bool:
+    """Whether an action sets or changes a setting that is a number."""
+    return isinstance(action, Adjust) or (isinstance(action, Set) and not isinstance(action.value, str))
+
+
+def _named(actions: tuple[Action, ...]) -> tuple[str, ...]:
+    """The ids of the things that actions name."""
+    wheres = [getattr(action, "where", None) for action in actions]
+    return tuple(where.id for where in wheres if where is not None and where.id)
 
 
 def _moves_things(fact: Applied) -> bool:

@@ -60,7 +60,7 @@ class Asked:
     ask: Ask
     timeline: Timeline
     supposes: str | None = None
-    """what the question takes for granted, beyond its keys: a `crash`"""
+    """what the question takes for granted, beyond its keys: a `crash`, or that a `number` is asked for"""
     playback_speed: PlaybackSpeed = NORMAL
     """the clock's, which no timeline has"""
     talk: Talk = NO_TALK
