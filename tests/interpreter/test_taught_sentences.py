@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
@@ -44,7 +46,7 @@ BEFORE = {
 
 def with_phrase(phrase: str, topic: Topic) -> Topic:
     phrases = english().phrases({phrase: contract.load(TWO_CARS)})
-    return Topic(topic.things, topic.added, topic.actions, kind=topic.kind, phrases=phrases)
+    return replace(topic, phrases=phrases)
 
 
 LETTERS = st.text("abcdefghijklmnopqrstuvwxyzäßé", min_size=2, max_size=9)
