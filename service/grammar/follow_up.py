@@ -16,6 +16,7 @@ from service.actions.table import traits_of
 from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO, TOTAL
 from service.grammar.engine import Language
 from service.grammar.incomplete import ask_elsewhere, ask_what_is_missing
+from service.grammar.listed_options import choose_listed
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
@@ -43,6 +44,8 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     "and left?" asks the same of the left.
     """
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
+    if alone and (listed := choose_listed(language, text, topic)) is not None:
+        return listed
     if alone or _asks(parsed):
         of_setting = read_of_setting(language, text, topic, parsed)
         if of_setting is not None:

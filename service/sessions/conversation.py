@@ -11,10 +11,11 @@ from collections import deque
 from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import asdict
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, get_args
 
 from service import actions as contract
 from service.actions import Action, Ask, Drop, Redo, Undo
+from service.actions.goals import Style
 from service.grammar.topic import Phrases, Topic
 from service.sessions.facts import (
     Answerable,
@@ -25,12 +26,14 @@ from service.sessions.facts import (
     spread_facts,
 )
 from service.sessions.utterance import Outcome
+from service.styles import styles
 from sim.actions import (
     Add,
     Adjust,
     Copy,
     Landmark,
     MoveThings,
+    Parameter,
     Rearranging,
     Remove,
     Replace,
@@ -64,6 +67,7 @@ class Conversation:
         self._latest_steps: tuple[int, ...] = ()
         """steps of undo of the latest two changes"""
         self._tick: int | None = None
+        self._offered: tuple[Action, ...] = ()
         self._away: tuple[int, ...] = ()
         """how many things each of them took off the road or moved"""
         self._listed: tuple[str, ...] = ()
@@ -111,6 +115,7 @@ class Conversation:
         for fact in amounts:
             self._record_change(fact)
         self._tick = None if outcome.answer is None else _tick_told(outcome.answer, actions)
+        self._offered = () if outcome.answer is None else _options_told(outcome.answer, actions)
         if outcome.answer is not None:
             self._record_answer(outcome.answer, facts)
 
@@ -231,6 +236,7 @@ class Conversation:
             undone=self._undone,
             kind=self._kind,
             tick=self._tick,
+            offered=self._offered,
             others=sum(kind_of(name) == self._kind for name in set(there) - set(self._things)),
             removed=self._removed,
             where=self._where,
@@ -249,6 +255,18 @@ def _tick_told(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> int | 
     call = (answer.get("history") or answer).get("closest_call")
     told = asked or ({call["tick"]} if isinstance(call, Mapping) else set())
     return told.pop() if len(told) == 1 else None
+
+
+def _options_told(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> tuple[Action, ...]:
+    """What choosing each of the styles, or of the values of a setting, that an answer listed would do."""
+    if len(actions) != 1 or not isinstance(actions[0], Ask):
+        return ()
+    if actions[0].about == "styles":
+        return tuple(Style(style=name) for name in styles())
+    values, name = answer.get("options", ()), answer.get("parameter")
+    if name not in get_args(Parameter) or not all(isinstance(value, str) for value in values):
+        return ()
+    return tuple(Set(parameter=name, value=value) for value in values)
 
 
 def _changes_number(action: object) -> bool:
