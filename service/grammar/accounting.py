@@ -2,9 +2,9 @@
 
 "To", "by", "too", "for" say little alone and are glue in most places. Beside an amount or a value they change
 what it means: "to 20 km/h" is no "by 20 km/h", "too dark" is no "dark". Such a word is a *marker*. Which
-words are markers, and in which role, is data (`marker.…` in the lexicon). In its role a marker is never glue: its
-readings without a meaning are withheld before any frame is tried, so that only a frame with a use for it can
-take the sentence. Where none has, the refusal names the marker and what it stands with.
+words are markers, and in which role, is data (`marker.…` in the lexicon). In its role a marker is never glue:
+its readings without a meaning are withheld before any frame is tried, so that only a frame with a use for it
+can take the sentence. Where none has, the refusal names the marker and what it stands with.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def withhold(lattice: Lattice, free: Set[str]) -> None:
 
 @contextmanager
 def restored(lattice: Lattice, withheld: Sequence[Withheld], end: int) -> Iterator[None]:
-    """For a while, words may be all that was withheld, and be passed over with what they govern, up to `end`."""
+    """For a while, words may be all that was withheld, and passed over with what they govern, up to `end`."""
     before = {each.start: list(lattice.edges[each.start]) for each in withheld}
     for each in withheld:
         here = lattice.edges[each.start]

@@ -108,7 +108,9 @@ class Composition:
 
     def also_leans(self, part: Fragment, own: Reading, context: Context) -> Reading | None:
         """The question that a request may belong to: "why did you stop and turn left"."""
-        if not (part.after == "and" and context.asks and context.verb) or asks(own[1]) or context.negated:
+        if part.after not in ("and", THEN) or not (context.asks and context.verb):
+            return None
+        if asks(own[1]) or context.negated or self._stretches.follows_mark(part.start):
             return None
         leaning = self._matcher.match(self._stretches.make(part.start, part.end, context), verbless=False)
         return leaning if leaning is not None and asks(leaning[1]) else None

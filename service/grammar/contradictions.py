@@ -7,7 +7,7 @@ would do all the same, the whole is refused.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -29,6 +29,11 @@ _COUNTED = ("counted", ".exact", ".more", ".post")
 
 _OF_THINGS = "thing."
 """What the concepts of amounts of things begin with; "lane 2" is an amount of lanes."""
+
+_EVERYTHING = "everything"
+
+_LOSING = verbs_where(lambda traits: traits.loses)
+"""Actions by which something on the road may be lost."""
 
 _PLACES = frozenset(("place", "side", "length", "nearest"))
 
@@ -137,6 +142,10 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
         kinds = {edge.sense.value.of for edge in slots if isinstance(edge.sense.value, Amount)}
         placed = any(edge.concept in _PLACES for edge in slots)
         for place, other in enumerate(clauses):
+            if frame.only_negated and kinds:
+                if any(_touches(action, kinds) for action in other.actions):
+                    return Contradiction((other, clause))
+                continue
             if any(
                 action["do"] == verb
                 and action.get("kind") in kinds
@@ -146,6 +155,13 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
             ):
                 return Contradiction((other, clause))
     return None
+
+
+def _touches(action: Mapping[str, Any], kinds: Set[object]) -> bool:
+    """Whether an action does something to things of some kinds, or may do it to anything."""
+    told = [action, *(each for each in action.values() if isinstance(each, Mapping))]
+    said = {each["kind"] for each in told if "kind" in each}
+    return bool(said & (kinds | {_EVERYTHING})) or (not said and action["do"] in _LOSING)
 
 
 def _none_of(clauses: Sequence[Clause]) -> Contradiction | None:

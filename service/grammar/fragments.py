@@ -23,6 +23,8 @@ BUT = "but"
 _MARKS = frozenset({"pause", STOP})
 """Separators that are punctuation."""
 
+DIRECTION = "dir"
+"""Concept of the ways to go."""
 INTERJECTION = "interjection"
 TAG = "tag"
 REPEATED = "repeated"
@@ -96,9 +98,28 @@ def _past_interjection(lattice: Lattice, start: int, end: int) -> int:
                 if (e.sense.concept == SEPARATOR and (e.sense.value in _MARKS or e.sense.value == BUT))
                 or (e.sense.concept == COLON and e.end == e.start + 1)
             ]
-            if marks and _says_something(lattice, marks[0].end, end):
+            if (
+                marks
+                and not _lists_ways(lattice, edge, marks[0].end)
+                and _says_something(lattice, marks[0].end, end)
+            ):
                 return max(mark.end for mark in marks)
     return start
+
+
+def _lists_ways(lattice: Lattice, call: Edge, at: int) -> bool:
+    """Whether a call is the first of several ways to go: "right, left, right", but "right, go on"."""
+    ways = [edge.end for edge in lattice.edges[call.start] if edge.concept == DIRECTION]
+    if call.end not in ways or at >= lattice.size:
+        return False
+    then = [e.end for e in lattice.edges[call.end] if e.concept == SEPARATOR and e.sense.value == THEN]
+    at = max(then, default=at)
+    here = lattice.edges[at] if at < lattice.size else []
+    after = {edge.end for edge in here if edge.concept == DIRECTION}
+    return any(
+        bool(then) if end == lattice.size else any(e.concept == SEPARATOR for e in lattice.edges[end])
+        for end in after
+    )
 
 
 def _before_tag(lattice: Lattice, start: int, end: int) -> int:

@@ -23,6 +23,8 @@ FORGETS = "forgets"
 TEACH = "teach"
 MEANS = "means"
 SAVES = "save"
+ORDER = "order"
+"""Concept of words that say that something is done before the rest; a name ends before them."""
 SHORT = "short"
 RETURNS = "returns"
 """The form of what brings a name only where that name is known: "go back to autopilot" names no moment."""
@@ -117,9 +119,17 @@ def _open(tokens: Sequence[Token], at: int, lexicon: Lexicon, said: str) -> Name
     end = at
     while end < len(tokens) and (not _is(lexicon, tokens[end], ENDS) or _inside_word(tokens, end, said)):
         end += 1
-    while end > at and _is(lexicon, tokens[end - 1], TRAILING):
-        end -= 1
+    end = end_of_name(tokens, at, end, lexicon)
     return Name(end, said[tokens[at].start : tokens[end - 1].end].strip(_LOOSE)) if end > at else None
+
+
+def end_of_name(tokens: Sequence[Token], start: int, end: int, lexicon: Lexicon) -> int:
+    """Where a name ends before words that are no part of it: "please", "first"."""
+    while end > start and (
+        _is(lexicon, tokens[end - 1], TRAILING) or (end - 1 > start and _is(lexicon, tokens[end - 1], ORDER))
+    ):
+        end -= 1
+    return end
 
 
 def _taught(tokens: Sequence[Token], at: int, lexicon: Lexicon, said: str) -> Name | None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from service.grammar.free_text import QUOTE, STARTS_AFTER
+from service.grammar.free_text import QUOTE, STARTS_AFTER, end_of_name
 from service.grammar.lattice import Name
 from service.grammar.lexicon import Lexicon
 from service.grammar.parse_types import Choice, Parse, Understood
@@ -32,7 +32,8 @@ def shorter_names(
             if not any(sense.concept == STARTS_AFTER for sense in lexicon.senses_of((tokens[at].text,))):
                 continue
             before, first = said[: tokens[start].start], tokens[start].start
-            shorter = read(f'{before}"{said[first : tokens[at - 1].end]}" {said[tokens[at].start :]}')
+            ends = tokens[end_of_name(tokens, start, at, lexicon) - 1].end
+            shorter = read(f'{before}"{said[first:ends]}"{said[ends:]}')
             last = tokens[name.end - 1].end
             whole = read(f'{before}"{said[first:last]}"{said[last:]}')
             if (

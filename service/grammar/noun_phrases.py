@@ -36,6 +36,9 @@ THINGS = "thing"
 DETERMINED = "the"
 """Form of senses that hold only after a bare definite article: "the car" is the vehicle itself."""
 
+_CHANGES = ("more", "fewer")
+"""Values of quantities that may stand after a counted noun: "two cones more"."""
+
 _AMOUNTS = frozenset((NUMBER, QUANTITY))
 
 
@@ -88,6 +91,8 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
             phrase = _joined(gathered, noun, vague)
             lattice.edges[gathered.start].append(phrase)
             after = _number_after(lattice, phrase)
+            if after is None:
+                after = _change_after(lattice, phrase)
             if after is not None:
                 lattice.edges[gathered.start].append(after)
             elif gathered.number is not None and not gathered.said and _follows_noun(lattice, gathered.start):
@@ -252,6 +257,17 @@ def _number_after(lattice: Lattice, phrase: Edge) -> Edge | None:
             if more is not None:
                 return Edge(phrase.start, more.end, Sense(f"{name}.more", amount))
             return Edge(phrase.start, edge.end, Sense(f"{name}.post", amount))
+    return None
+
+
+def _change_after(lattice: Lattice, phrase: Edge) -> Edge | None:
+    """ "fifteen potholes more", "one lane less": a counted noun takes the word for a change after it."""
+    name, _, form = phrase.concept.partition(".")
+    if form != "counted":
+        return None
+    for edge in _at(lattice, phrase.end):
+        if edge.concept == QUANTITY and edge.sense.value in _CHANGES and edge.end == phrase.end + 1:
+            return Edge(phrase.start, edge.end, Sense(f"{name}.{edge.sense.value}", phrase.sense.value))
     return None
 
 

@@ -22,6 +22,7 @@ from service.grammar.fragments import Fragment, fragments
 from service.grammar.lattice import GLUE, Lattice
 from service.grammar.matching import Frames
 from service.grammar.noun_phrases import QUANTITY, Amount, add_noun_phrases
+from service.grammar.order import orders
 from service.grammar.parse_types import (
     Ambiguous,
     Choice,
@@ -153,10 +154,13 @@ class Reading:
         )
         if question is not None:
             return self._ask(question) if asking else self._refuse([self._plain], ())
+        clauses, *otherwise = orders(clauses, self._lattice)
         if (unsure := next((clause for clause in clauses if clause.instead), None)) is not None:
             return self._together_or_apart(clauses, unsure, asking=asking)
         if (both := contradiction(clauses, self._lattice)) is not None:
             return self._answer_contradiction(both, asking=asking)
+        if otherwise:
+            return self._which_order((clauses, *otherwise), asking=asking)
         values, spans = _once(clauses, self._tokens)
         if not values:
             return self._refusal("negation", self._messages["negation"])
@@ -214,6 +218,16 @@ class Reading:
         phrase = self._written(unsure.start, unsure.end)
         message = self._messages["together_or_apart"].format(phrase=_shorten(phrase))
         return self._refusal("not_understood", message, (phrase,))
+
+    def _which_order(self, readings: Sequence[Sequence[Clause]], *, asking: bool) -> Parse:
+        """The question in which order requests shall be done."""
+        try:
+            choices = [self._choice(_once(each, self._tokens)[0]) for each in readings]
+        except (Unsayable, ValidationError):  # nothing to choose from
+            choices = []
+        if asking and len(choices) > 1:
+            return Ambiguous(self._text, self._messages["which"], tuple(choices))
+        return self._refuse([self._plain], (), asking=asking)
 
     def _choice(self, values: list[dict[str, Any]]) -> Choice:
         """Actions to choose, with a sentence that means them."""

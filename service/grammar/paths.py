@@ -140,6 +140,8 @@ def _walk(search: _Search, at: int, needs: list[frozenset[str]], used: set[str],
     for edge, fills in search.usable.get(at, ()):
         if not fills:
             if edge.part:
+                if all(slot.part != edge.part for slot in search.slots):
+                    continue  # the first half of it is no part of this path
                 search.parts.append(edge)
             search.glue.append(edge)
             done = _walk(search, edge.end, needs, used, pieces + 1)

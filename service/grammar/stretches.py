@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
+from service.grammar.fragments import PAUSE, STOP
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount, understood_nouns
-from service.grammar.paths import ALLOWS, Stretch
+from service.grammar.paths import ALLOWS, SEPARATOR, Stretch
 from service.grammar.work_budget import WorkBudget
+
+LONGEST_JOINER = 3
+"""Tokens of the longest words between two requests, with the mark before them: ". and then"."""
 
 _LENIENT = ("counted", "the_many", "bare_many")
 
@@ -46,6 +50,14 @@ class Stretches:
         self._moods = moods
         self._work = work
         self._starting = [_start(starting) for starting in lattice.edges]
+
+    def follows_mark(self, at: int) -> bool:
+        """Whether a mark stands before a token, or before the words that join it to what was said."""
+        return any(
+            edge.concept == SEPARATOR and edge.sense.value in (STOP, PAUSE)
+            for starting in self._lattice.edges[max(0, at - LONGEST_JOINER) : at]
+            for edge in starting
+        )
 
     def make(
         self,

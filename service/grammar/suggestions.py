@@ -116,6 +116,21 @@ class Saying:
             meant for group in groups if (meant := frozenset(each for each in said if each[0] in group))
         )
 
+    @cached_property
+    def needed(self) -> tuple[frozenset[str], ...]:
+        """The concepts of each of them."""
+        return tuple(frozenset(concept for concept, _ in need) for need in self.needs)
+
+    @cached_property
+    def only_asks(self) -> bool:
+        """Whether it does nothing but ask."""
+        return all(traits_of(action).is_question for action in self.actions)
+
+    @cached_property
+    def lowered(self) -> str:
+        """Its text in small letters."""
+        return self.text.lower()
+
 
 class Suggestions:
     """The sayings of a language, ranked by how sure what was said makes their intent.
@@ -171,13 +186,13 @@ class Suggestions:
         for saying in self._sayings if telling else ():
             if not self._of[saying.intent] & needing:
                 continue
-            if harmless and not all(traits_of(action).is_question for action in saying.actions):
+            if harmless and not saying.only_asks:
                 continue
             if intents is not None and saying.intent not in intents:
                 continue
             score = _score(saying, self._of[saying.intent], telling)
             if score >= LEAST:
-                likeness = fuzz.token_set_ratio(text, saying.text.lower()) / 100
+                likeness = fuzz.token_set_ratio(text, saying.lowered) / 100
                 scored.append((-score - _LIKENESS * likeness, saying.text))
         scored.sort()
         return tuple(dict.fromkeys((*first, *(text for _, text in scored))))[:HOW_MANY]
@@ -256,8 +271,7 @@ def _share(meant: frozenset[Meaning], other: frozenset[Meaning]) -> float:
 def _score(saying: Saying, intent: int, telling: Sequence[_Telling]) -> float:
     """How sure it is that a saying is of the intent of what was said; 0 where it must not be offered."""
     score, met = 0.0, 0
-    for need in saying.needs:
-        concepts = {concept for concept, _ in need}
+    for need, concepts in zip(saying.needs, saying.needed, strict=True):
         chances = [
             chance
             + (_SAME_VALUE if any(value and (name, value) in need for name, value in each.meant) else 0.0)

@@ -11,7 +11,10 @@ from collections import deque
 from collections.abc import Iterable, Mapping
 from copy import copy
 from dataclasses import asdict
+from functools import cache
 from typing import Any, TypeAlias, get_args
+
+from pydantic import TypeAdapter
 
 from service import actions as contract
 from service.actions import Action, Ask, Drop, Redo, Undo
@@ -31,7 +34,6 @@ from sim.actions import (
     Add,
     Adjust,
     Copy,
-    Landmark,
     MoveThings,
     Parameter,
     Rearranging,
@@ -212,7 +214,7 @@ class Conversation:
         new._away = tuple(values.get("away", ()))
         new._undone, new._removed, new._kind = values["undone"], values["removed"], values["kind"]
         if where is not None:
-            new._where = _read_where(where)
+            new._where = _places().validate_python(where)
         if values["episode"] is not None:
             number, start = values["episode"]
             new._episode = number, start
@@ -295,14 +297,9 @@ def _place_of(action: Add | Remove | SetCount | Rearranging) -> Where | None:
             return None
 
 
-def _read_where(values: Mapping[str, Any]) -> Where:
-    """A place from JSON values, in which pairs are lists."""
-    parts: dict[str, Any] = {
-        key: tuple(value) if isinstance(value, list) else value for key, value in values.items()
-    }
-    if parts.get("of") is not None:
-        parts["of"] = Landmark(**parts["of"])
-    return Where(**parts)
+@cache
+def _places() -> TypeAdapter[Where]:
+    return TypeAdapter(Where)  # at the first use: building it takes as long as a small import
 
 
 def _fixed_place(where: Where | None, fact: Applied) -> Where | None:

@@ -95,7 +95,7 @@ def test_talking_from_a_terminal(database: Path) -> None:
     with serving(database) as (process, url):
         first = run("say", "add five potholes", "--url", url)
         assert first.returncode == 0, first.stderr
-        assert "→" in first.stdout
+        assert "there are" in first.stdout
         sessions = httpx.get(f"{url}/api/v1/sessions", timeout=60).json()["items"]
         assert len(sessions) == 1
 

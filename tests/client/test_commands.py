@@ -61,7 +61,7 @@ def test_an_ambiguous_sentence_lists_its_meanings(process: ServiceProcess, clien
     said = CliRunner().invoke(cli, ["say", "slower", "--url", process.url, "--session", session.id])
     assert said.exit_code == 1
     assert said.stdout == ""
-    assert "  slow the simulation down" in said.stderr.splitlines()
+    assert "  1  slow the simulation down" in said.stderr.splitlines()
     assert session.info().sequence == 0
 
 

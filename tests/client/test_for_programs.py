@@ -52,7 +52,7 @@ def test_lines_of_the_input_are_said_until_one_is_refused(process: ServiceProces
     lines = "add five potholes\n\n  add two potholes\norder pizza\nadd one pothole\n"
     told = asked(process, "say", "-", "--session", session.id, given=lines)
     assert told.exit_code == 1
-    assert [line.partition(":")[0] for line in told.stdout.splitlines()] == [
+    assert [line.partition(";")[0].partition(" in ")[0] for line in told.stdout.splitlines()] == [
         "Added 5 potholes",
         "Added 2 potholes",
     ]

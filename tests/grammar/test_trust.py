@@ -1,4 +1,4 @@
-"""Sentences in which one word decides: what they say is done, asked about or refused, never something else."""
+"""Sentences in which one word decides: what they say is done, asked about or refused, nothing else."""
 
 from __future__ import annotations
 

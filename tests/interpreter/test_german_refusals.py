@@ -23,7 +23,7 @@ async def german(opening: Opening) -> Talk:
         (
             "setze die Spawnwahrscheinlichkeit auf 3",
             "does-not-fit",
-            "Die Wahrscheinlichkeit für Fahrzeuge muss zwischen 0 und 1 liegen; jetzt gilt 0,68.",
+            "Die Wahrscheinlichkeit neuer Autos muss zwischen 0 und 1 liegen; jetzt gilt 0,68.",
         ),
         ("entferne 50 Barrieren", "does-not-fit", "Es gibt auf der Straße keine Barriere."),
         ("lass es regnen", "not-available", "Das Wetter lässt sich noch nicht ändern (Regen)."),

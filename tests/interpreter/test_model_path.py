@@ -345,7 +345,7 @@ async def test_a_good_answer_goes_the_whole_way(opening: Opening, endpoint: Endp
     endpoint.answers(acts({"do": "add", "kind": "barrier", "count": 5}))
     talk = await opening(model=real(endpoint))
     problem = await talk.refused(SAID, "ambiguous")
-    assert (await talk.say(problem["choices"][0]["text"]))["reply"].endswith("barriers 0 → 5.")
+    assert (await talk.say(problem["choices"][0]["text"]))["reply"].endswith("there are 5 barriers now.")
     assert len(endpoint.bodies) == 1
 
 

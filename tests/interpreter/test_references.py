@@ -214,7 +214,7 @@ async def test_there_is_taken_by_what_was_put_there(talk: Talk) -> None:
     await talk.say("add a cone 10 m ahead")
     await talk.say("step 3 ticks")
     problem = await talk.refused("put a pothole there", "does-not-fit")
-    assert "barrier" in problem["detail"]
+    assert "taken by a barrier" in problem["detail"]
 
 
 @pytest.mark.parametrize("planner", ["priority", "astar"])

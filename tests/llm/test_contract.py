@@ -25,6 +25,7 @@ FREE_TEXT = {
     ("Ask", "value"),
     ("Drive", "ego"),
     ("SetMode", "ego"),
+    ("Style", "style"),
 }
 """Fields of a model's actions that take any text: each is checked by `reading`."""
 

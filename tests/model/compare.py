@@ -23,7 +23,7 @@ LETTERS = {
     Move.FORWARD_RIGHT: "r",
     Move.STAY: "s",
 }
-NOTES = {1: "Made under rules 1: it replays as it did then.", 2: None}
+NOTES = {version: f"Made under rules {version}: it replays as it did then." for version in (1, 2)} | {3: None}
 TOLD = re.compile(r"(potholes|barriers|vehicles|pedestrians) (\d+) → (\d+)")
 
 

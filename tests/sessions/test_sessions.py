@@ -65,7 +65,7 @@ async def test_a_dry_run_tells_and_does_nothing() -> None:
     service = Service()
     session = await service.session()
     before = fingerprint(session)
-    assert "4 → 5" in await do(session, ADD, dry_run=True)
+    assert "there are 5 potholes now" in await do(session, ADD, dry_run=True)
     assert fingerprint(session) == before
     assert list(await service.store.entries(session.id)) == []
 

@@ -20,6 +20,11 @@ def body(driver: Driver, name: str) -> pygame.Rect:
     return body_of(driver.window.place(name))
 
 
+def _like(colour: tuple[int, int, int], colours: set[tuple[int, int, int]]) -> bool:
+    """Whether one of these colours is nearly it: letters are drawn smoothly, and may have no full pixel."""
+    return any(max(abs(a - b) for a, b in zip(colour, each, strict=True)) < 40 for each in colours)
+
+
 def test_the_five_views_show_what_there_is(window: Open) -> None:
     driver = window(config=SPARSE)
     driver.seconds(1.3)
@@ -29,9 +34,9 @@ def test_the_five_views_show_what_there_is(window: Open) -> None:
             assert theme.SCHEMATIC[kind] in colours, (name, kind)
     assert theme.MOVE in driver.colours(body(driver, "plan"))
     assert theme.EDGE_LINE in driver.colours(body(driver, "road"))
-    assert theme.LINES["changed"] not in driver.colours(body(driver, "log"))
+    assert not _like(theme.LINES["changed"], driver.colours(body(driver, "log")))
     driver.say("add a pothole")
-    assert theme.LINES["changed"] in driver.colours(body(driver, "log"))
+    assert _like(theme.LINES["changed"], driver.colours(body(driver, "log")))
 
 
 def test_the_header_names_the_planner_as_people_know_it(window: Open) -> None:

@@ -22,13 +22,19 @@ def advice_json(advice: Advice) -> Json:
         "weather": advice.weather,
         "recommendation": advice.choice,
         "confidence": _rounded(advice.confidence),
-        "interval": [_rounded(bound) for bound in advice.chosen.interval],
+        "interval": [_rounded(bound) for bound in _around(advice)],
         "options": [_prospect_json(prospect) for prospect in advice.prospects],
         "physics": {name: _rounded(value) for name, value in asdict(advice.figures).items()},
         "parameters": [_quantity_json(each) for each in parameters(advice.hazard, advice.weather)],
         "samples": advice.samples,
         "seed": SEED,
     }
+
+
+def _around(advice: Advice) -> tuple[float, float]:
+    """The interval of the chosen chance, which holds the confidence in whole hundredths as well."""
+    low, high = advice.chosen.interval
+    return min(low, advice.confidence), max(high, advice.confidence)
 
 
 def _prospect_json(prospect: Prospect) -> Json:

@@ -10,7 +10,7 @@ import pytest
 
 from sim.config import Config
 from sim.explain import QuestionError
-from sim.explain import confidence as module
+from sim.explain import futures as module
 from sim.explain.confidence import Confidence, Method, confidence
 from sim.plan import traits_of
 from sim.session.timeline import Timeline

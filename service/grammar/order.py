@@ -1,0 +1,76 @@
+"""Puts the requests of an utterance in the order in which they shall be done: "reset, but save it first".
+
+Words of order ("first", "beforehand") at a later request put it before the ones that stand before it.
+Where it cannot be told how far back, both orders are offered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from service.grammar.clauses import Clause
+from service.grammar.fragments import BUT, PAUSE, STOP, THEN
+from service.grammar.free_text import ORDER
+from service.grammar.lattice import Edge, Lattice
+
+BEFOREHAND = "beforehand"
+"""Value of those that say nothing else; the others may also begin a list: "first … then …"."""
+
+
+def orders(clauses: Sequence[Clause], lattice: Lattice) -> list[list[Clause]]:
+    """The orders that may be meant, the likeliest first; one of them where nothing says otherwise."""
+    said = list(clauses)
+    if ORDER not in lattice.concepts:
+        return [said]
+    for at in range(len(said) - 1, 0, -1):
+        word = _word(said[at], lattice)
+        if word is None or _in_a_list(said, at, word):
+            continue
+        first, last = _group(said, at, word)
+        if not first:
+            continue
+        moved = said[first:last]
+        put_first = replace(moved[0], after=PAUSE)
+        put_back = replace(said[0], after=THEN)
+        found = [put_first, *moved[1:], put_back, *said[1:first], *said[last:]]
+        sure = said[first].after == BUT or (len(said) == 2 and said[first].after != STOP)
+        return [found] if sure or (word.sense.value == BEFOREHAND and first == at) else [found, said]
+    return [said]
+
+
+def _word(clause: Clause, lattice: Lattice) -> Edge | None:
+    """The word of order in a clause that no part of the request is made of."""
+    slots = [(edge.start, edge.end) for edge in clause.filled.slots]
+    return next(
+        (
+            edge
+            for edge in lattice.between(clause.start, clause.end)
+            if edge.concept == ORDER
+            and not any(start < edge.end and edge.start < end for start, end in slots)
+        ),
+        None,
+    )
+
+
+def _in_a_list(clauses: Sequence[Clause], at: int, word: Edge) -> bool:
+    """Whether "first" begins what goes on with "then", or comes after it."""
+    if word.sense.value == BEFOREHAND or clauses[at].after == BUT:
+        return False
+    return clauses[at].after == THEN or any(later.after == THEN for later in clauses[at + 1 :])
+
+
+def _group(clauses: Sequence[Clause], at: int, word: Edge) -> tuple[int, int]:
+    """The requests `[first, last)` that a word of order at one of them puts before the rest."""
+    clause = clauses[at]
+    begins = all(edge.start > word.start for edge in clause.filled.slots if edge.start < edge.end)
+    first, last = at, at + 1
+    if begins:
+        while last < len(clauses) and clauses[last].after not in (THEN, STOP, BUT):
+            last += 1
+    else:
+        while first and clauses[first].after not in (BUT, STOP, THEN):
+            first -= 1
+        if not first:  # no word tells it from the rest: "add a cone and pause first"
+            first = at
+    return first, last
