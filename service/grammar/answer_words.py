@@ -113,7 +113,7 @@ class Answers:
         return None
 
     def longest(self, tokens: Sequence[Token], start: int, concept: str) -> tuple[int, Any]:
-        """The end and the value of the longest phrase of a concept that starts at a token; (start, None) without."""
+        """The end and the value of the longest phrase of a concept from a token on; (start, None) without."""
         found: tuple[int, Any] = (start, None)
         for end, senses, _ in self.phrases.matches(tokens, start, {}, {}):
             for sense in senses:

@@ -1,4 +1,4 @@
-"""Asks about requests that lack something: "add three" (of what?), "turn" (left or right?), "in lane 4" alone.
+"""Asks about requests that lack something: "add three" (of what?), "turn" (left or right?), "in lane 4".
 
 How a request may be completed is data (`incomplete` of `answers.yaml`): a request is incomplete where it is
 understood once something is added to it.
@@ -25,7 +25,7 @@ MAX_WORDS = 6
 
 
 def ask_what_is_missing(language: Language, text: str, topic: Topic) -> Ambiguous | None:
-    """The question about what a sentence lacks, with ways to complete it; None where it lacks nothing known."""
+    """The question about what a sentence lacks, with ways to complete it; None where nothing."""
     said = normalise(text).strip().rstrip(".?! ")
     if not said or len(tokenise(said, language.data.contractions)) > MAX_WORDS:
         return None
