@@ -18,7 +18,6 @@ from service.grammar.tokens import normalise, tokenise
 from service.grammar.topic import ALONE, Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, Drive, MoveThings, Where
-from sim.types import kind_of
 
 MAX_WORDS = 6
 """Longer sentences lack more than one thing."""
@@ -84,7 +83,7 @@ def ask_elsewhere(language: Language, text: str, topic: Topic, parsed: Understoo
     where = _place(language, text, done)
     if where is None:
         return None
-    moved = MoveThings(kind=kind_of(thing), count=1, where=Where(id=thing), to=where)
+    moved = MoveThings(kind=done.kind, count=1, where=Where(id=thing), to=where)
     another = Add(kind=done.kind, count=done.count, where=where)
     own = [parsed.actions] if isinstance(parsed, Understood) else []
     return _question(language, text, language.data.messages["which"], [(moved,), (another,), *own])

@@ -9,8 +9,6 @@ from service.grammar.topic import Topic
 from sim.actions import Add, Drive, MoveThings, Shift
 from sim.types import Move
 
-_OPPOSITE = {"left": "right", "right": "left"}
-
 
 def turned(topic: Topic) -> tuple[Action, ...] | None:
     """The last request with its direction turned round; None where it had none."""
@@ -20,7 +18,7 @@ def turned(topic: Topic) -> tuple[Action, ...] | None:
         case Drive(move=Move.LEFT | Move.RIGHT as move) as drive:
             return (replace(drive, move=Move.RIGHT if move is Move.LEFT else Move.LEFT),)
         case MoveThings(by=Shift(side="left" | "right" as side) as by) as move:
-            return (replace(move, by=replace(by, side=_OPPOSITE[side])),)
+            return (replace(move, by=replace(by, side="right" if side == "left" else "left")),)
         case _:
             return None
 

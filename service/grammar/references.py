@@ -103,7 +103,7 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     return sorted(unclear, key=lambda each: (each.end, -each.start) if each.lane else (0, 0))
 
 
-def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
+def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | None:
     """What a word that stands for something stands for."""
     start, end = edge.start, edge.end
     match edge.sense.value:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, get_args
+from typing import Any, cast, get_args
 
 from service.actions import Action, Ask
 from service.actions.goals import Style
@@ -34,7 +34,7 @@ def options_told(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> tupl
     values, name = answer.get("options", ()), answer.get("parameter")
     if name not in get_args(Parameter) or not all(isinstance(value, str) for value in values):
         return ()
-    return tuple(Set(parameter=name, value=value) for value in values)
+    return tuple(Set(parameter=cast(Parameter, name), value=value) for value in values)
 
 
 def changes_number(action: object) -> bool:
