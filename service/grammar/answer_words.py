@@ -44,6 +44,9 @@ TO_VALUE = "to_value"
 SO_MUCH = "so_much"
 """Concept of numbers by which it is changed: "one more"; their value is `{up: n}` or `{down: n}`."""
 
+CHOOSES = "chooses"
+"""Concept of the beginnings with which one of what an answer listed is chosen: "use"."""
+
 TOO = "too"
 """Concept of what may end a sentence that leans on the one before: "as well"."""
 
@@ -66,6 +69,8 @@ class Answers:
     """a question for a setting that is only named: "and the courtesy?" """
     incomplete: tuple[Mapping[str, Any], ...] = ()
     """questions about requests that lack something (`ask`), and how each may be completed (`with`)"""
+    shall: str = ""
+    """the question whether what an answer listed is to be done"""
     completes: tuple[str, ...] = ()
     """words between a request that lacks something and what completes it: " to" """
     places: frozenset[str] = frozenset()
@@ -82,6 +87,7 @@ class Answers:
             data.get("no_such_choice", ""),
             data.get("setting_asked", ""),
             tuple(data.get("incomplete", ())),
+            data.get("shall", ""),
             tuple(data.get("completes", ())),
             frozenset(data.get("places", ())),
         )
@@ -107,7 +113,7 @@ class Answers:
         return None
 
     def longest(self, tokens: Sequence[Token], start: int, concept: str) -> tuple[int, Any]:
-        """The end and the value of the longest phrase of a concept that starts at a token; (start, None) without."""
+        """The end and the value of the longest phrase of a concept from a token on; (start, None) without."""
         found: tuple[int, Any] = (start, None)
         for end, senses, _ in self.phrases.matches(tokens, start, {}, {}):
             for sense in senses:

@@ -53,7 +53,8 @@ def read_answer(
 ) -> Answer | None:
     """What a text answers to a question with these choices; None where it is no answer.
 
-    `asked`: the sentence that was asked about, which the answer may complete. `literal`: the text is also a request of its own, so it picks a choice only with the words of the choice.
+    `asked`: the sentence that was asked about, which the answer may complete.
+    `literal`: the text is also a request of its own, so it picks a choice only with the words of the choice.
     """
     tokens = _without_marks(tokenise(normalise(text), language.data.contractions))
     if not tokens or len(tokens) > MAX_WORDS or not choices:
@@ -175,9 +176,8 @@ class _Answering:
                 meant.append(parsed.actions)
         return meant[0] if len(meant) == 1 else None
 
-
     def _completed(self, answer: str) -> tuple[Action, ...] | None:
-        """The sentence that was asked about with the answer at its end, where it is a request like the choices."""
+        """The sentence that was asked about, completed by the answer to a request like the choices."""
         shapes = [_shape(choice.actions) for choice in self._choices]
         for between in self._answers.completes if self._asked else ():
             parsed = self._language.read(

@@ -11,11 +11,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from service.actions import Action, Advise, Ask
+from service.actions import Action
 from service.actions.table import traits_of
 from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO, TOTAL
 from service.grammar.engine import Language
 from service.grammar.incomplete import ask_elsewhere, ask_what_is_missing
+from service.grammar.last_request import asked_anew
+from service.grammar.listed_options import choose_listed
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
@@ -24,8 +26,7 @@ from service.grammar.setting_talk import read_of_setting
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
-from sim.actions import Add, Drive, SetCount
-from sim.types import Move
+from sim.actions import Add, SetCount
 
 MAX_SHORT = 4
 """A sentence of so many words after "and" may ask the last question once more."""
@@ -43,6 +44,8 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     "and left?" asks the same of the left.
     """
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
+    if alone and (listed := choose_listed(language, text, topic)) is not None:
+        return listed
     if alone or _asks(parsed):
         of_setting = read_of_setting(language, text, topic, parsed)
         if of_setting is not None:
@@ -110,21 +113,6 @@ def _after_question(language: Language, leaning: _Leaning, found: Parse | None, 
         counted = any(isinstance(action, Add) and action.count > 1 for action in alone.actions)
         return leaning.refusal(alone.text) if asks and leaning.short and not counted else alone
     return found if asks else _which(language, alone.text, found, alone)
-
-
-def asked_anew(done: Actions, alone: Actions) -> Actions | None:
-    """The last question about what a request names: its move, or its thing; None where it names neither."""
-    if len(done) != 1 or len(alone) != 1:
-        return None
-    (question,), (request,) = done, alone
-    match question, request:
-        case Ask(about="why" | "why_not", move=Move()), Drive(move=move):
-            return (replace(question, move=move),)
-        case Advise(), Add(kind=kind, count=1, where=None):
-            return (replace(question, hazard=kind),)
-        case Ask(about="scene"), Add(kind=kind, count=1, where=None):
-            return (replace(question, kind=kind),)
-    return None
 
 
 def _which(language: Language, text: str, found: Parse, alone: Understood) -> Parse:

@@ -1,4 +1,4 @@
-"""Asks about requests that lack something: "add three" (of what?), "turn" (left or right?), "in lane 4" alone.
+"""Asks about requests that lack something: "add three" (of what?), "turn" (left or right?), "in lane 4".
 
 How a request may be completed is data (`incomplete` of `answers.yaml`): a request is incomplete where it is
 understood once something is added to it.
@@ -18,14 +18,13 @@ from service.grammar.tokens import normalise, tokenise
 from service.grammar.topic import ALONE, Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, Drive, MoveThings, Where
-from sim.types import kind_of
 
 MAX_WORDS = 6
 """Longer sentences lack more than one thing."""
 
 
 def ask_what_is_missing(language: Language, text: str, topic: Topic) -> Ambiguous | None:
-    """The question about what a sentence lacks, with ways to complete it; None where it lacks nothing known."""
+    """The question about what a sentence lacks, with ways to complete it; None where nothing."""
     said = normalise(text).strip().rstrip(".?! ")
     if not said or len(tokenise(said, language.data.contractions)) > MAX_WORDS:
         return None
@@ -84,7 +83,7 @@ def ask_elsewhere(language: Language, text: str, topic: Topic, parsed: Understoo
     where = _place(language, text, done)
     if where is None:
         return None
-    moved = MoveThings(kind=kind_of(thing), count=1, where=Where(id=thing), to=where)
+    moved = MoveThings(kind=done.kind, count=1, where=Where(id=thing), to=where)
     another = Add(kind=done.kind, count=done.count, where=where)
     own = [parsed.actions] if isinstance(parsed, Understood) else []
     return _question(language, text, language.data.messages["which"], [(moved,), (another,), *own])

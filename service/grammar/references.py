@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 
-from service.actions import Action, Undo, dump
+from service.actions import Undo, dump
 from service.grammar.fragments import REPEATED
+from service.grammar.last_request import steps_of_two, turned
 from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
@@ -19,8 +20,8 @@ from service.grammar.parse_types import Parse, Refused, Understood
 from service.grammar.said_before import done_anew, take_back
 from service.grammar.tokens import Token
 from service.grammar.topic import Phrases, Topic
-from sim.actions import Adjust, Drive, MoveThings, Remove, Replace, Set, Shift, Swap, Where
-from sim.types import Move, kind_of
+from sim.actions import Adjust, MoveThings, Remove, Replace, Set, Swap, Where
+from sim.types import kind_of
 
 REFERS = "refers"
 """Concept of words that refer; their value says how."""
@@ -102,7 +103,7 @@ def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:
     return sorted(unclear, key=lambda each: (each.end, -each.start) if each.lane else (0, 0))
 
 
-def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
+def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | None:
     """What a word that stands for something stands for."""
     start, end = edge.start, edge.end
     match edge.sense.value:
@@ -130,8 +131,8 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return Edge(start, end, Sense("place", said))
         case {"nth": int() as number} if 0 < number <= len(topic.listed):
             return _things(start, end, topic.listed[number - 1 : number])
-        case "opposite" if (turned := _turned(topic)) is not None:
-            return Edge(start, end, Sense(REPEATED, dump(done_anew(topic, turned))))
+        case "opposite" if (other := turned(topic)) is not None:
+            return Edge(start, end, Sense(REPEATED, dump(done_anew(topic, other))))
         case "since" if topic.tick is not None:
             asked = [{"do": "ask", "about": "history", "what": "since", "tick": topic.tick}]
             return Edge(start, end, Sense(REPEATED, asked))
@@ -143,7 +144,9 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear:
             return _others(start, end, topic, one=which == "other")
         case "back" if _took_away(topic):
             return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
-        case "back_both" | "undo_both" as which if steps := _steps_of_two(topic, put_back=which == "back_both"):
+        case "back_both" | "undo_both" as which if steps := steps_of_two(
+            topic, put_back=which == "back_both"
+        ):
             return Edge(start, end, Sense(REPEATED, dump((Undo(steps=steps if steps > 1 else None),))))
         case "not_that" if _pointed_at(topic):
             return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
@@ -230,33 +233,6 @@ def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:
     if not left or (one and len(left) > 1):
         return Unclear(start, end, left[-MAX_CANDIDATES:])
     return _things(start, end, left)
-
-
-def _turned(topic: Topic) -> tuple[Action, ...] | None:
-    """The last request with its direction turned round; None where it had none."""
-    if len(topic.actions) != 1 or topic.undone:
-        return None
-    match topic.actions[0]:
-        case Drive(move=Move.LEFT | Move.RIGHT as move) as drive:
-            return (replace(drive, move=Move.RIGHT if move is Move.LEFT else Move.LEFT),)
-        case MoveThings(by=Shift(side="left" | "right" as side) as by) as move:
-            return (replace(move, by=replace(by, side=_OPPOSITE[side])),)
-        case _:
-            return None
-
-
-def _steps_of_two(topic: Topic, *, put_back: bool) -> int:
-    """How many steps of undo take back two changes: those of the last request, or of it and the one before.
-
-    `put_back`: two things that were taken off the road or moved. 0 where it is not two.
-    """
-    if topic.undone or not topic.steps:
-        return 0
-    if topic.away[-1:] == (2,) or (not put_back and len(topic.actions) == 2):
-        return topic.steps
-    if len(topic.actions) != 1 or not topic.steps_before or (put_back and topic.away != (1, 1)):
-        return 0
-    return topic.steps + topic.steps_before
 
 
 def _took_away(topic: Topic) -> bool:

@@ -62,6 +62,8 @@ class Topic:
     """whether the latest change was an undo: then "again" is to redo it"""
     kind: str | None = None
     """what "two more" is more of"""
+    offered: tuple[Action, ...] = ()
+    """what choosing each would do, where the last answer listed settings or styles: "the second one" """
     tick: int | None = None
     """the tick that the last question or its answer named: "since then" """
     others: int = 0

@@ -54,7 +54,7 @@ class Scenes:
         return told
 
     def text(self, scene: Scene, run: SimState, kind: Kind | None, *, counting: bool = False) -> str:
-        """What is seen, or what of one kind. `run`: the moment the scene is of; `counting`: how many first."""
+        """What is seen, or what of one kind. `run`: its moment; `counting`: the number first."""
         told = _Told(self._sayings, run, scene)
         if kind is None:
             return told.everything()

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from pydantic import TypeAdapter
 
 from service import actions as contract
-from service.actions import Action, Ask, Drop, Redo, Undo
+from service.actions import Action, Drop, Redo, Undo
 from service.grammar.topic import Phrases, Topic
 from service.sessions.facts import (
     Answerable,
@@ -27,17 +27,16 @@ from service.sessions.facts import (
     performed_actions,
     spread_facts,
 )
+from service.sessions.referred import changes_number, named, options_told, tick_told
 from service.sessions.utterance import Outcome
 from sim.actions import (
     Add,
-    Adjust,
     Copy,
     MoveThings,
     Rearranging,
     Remove,
     Replace,
     Reset,
-    Set,
     SetCount,
     Swap,
     Where,
@@ -66,6 +65,7 @@ class Conversation:
         self._latest_steps: tuple[int, ...] = ()
         """steps of undo of the latest two changes"""
         self._tick: int | None = None
+        self._offered: tuple[Action, ...] = ()
         self._away: tuple[int, ...] = ()
         """how many things each of them took off the road or moved"""
         self._listed: tuple[str, ...] = ()
@@ -108,11 +108,12 @@ class Conversation:
             self._things = ()  # "them" are all that the utterance added, not what its last part did
             if any(fact.added for fact in amounts):
                 self._listed = ()
-        elif any(isinstance(fact, Applied) and _changes_number(fact.action) for fact in facts):
+        elif any(isinstance(fact, Applied) and changes_number(fact.action) for fact in facts):
             self._kind = None  # "one more" is one more lane
         for fact in amounts:
             self._record_change(fact)
-        self._tick = None if outcome.answer is None else _tick_told(outcome.answer, actions)
+        self._tick = None if outcome.answer is None else tick_told(outcome.answer, actions)
+        self._offered = () if outcome.answer is None else options_told(outcome.answer, actions)
         if outcome.answer is not None:
             self._record_answer(outcome.answer, facts)
 
@@ -227,12 +228,13 @@ class Conversation:
             steps=self._steps,
             steps_before=self._latest_steps[0] if len(self._latest_steps) > 1 else 0,
             away=self._away,
-            named=_named(self._actions),
+            named=named(self._actions),
             listed=self._listed if there else (),
             gone=frozenset(name for name in self._listed if name not in there),
             undone=self._undone,
             kind=self._kind,
             tick=self._tick,
+            offered=self._offered,
             others=sum(kind_of(name) == self._kind for name in set(there) - set(self._things)),
             removed=self._removed,
             where=self._where,
@@ -243,25 +245,6 @@ class Conversation:
 
 def _episode(world: World) -> Episode:
     return world.episode, world.episode_start
-
-
-def _tick_told(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> int | None:
-    """The one tick that a question or its answer names."""
-    asked = {action.tick for action in actions if isinstance(action, Ask) and action.tick is not None}
-    call = (answer.get("history") or answer).get("closest_call")
-    told = asked or ({call["tick"]} if isinstance(call, Mapping) else set())
-    return told.pop() if len(told) == 1 else None
-
-
-def _changes_number(action: object) -> bool:
-    """Whether an action sets or changes a setting that is a number."""
-    return isinstance(action, Adjust) or (isinstance(action, Set) and not isinstance(action.value, str))
-
-
-def _named(actions: tuple[Action, ...]) -> tuple[str, ...]:
-    """The ids of the things that actions name."""
-    wheres = [getattr(action, "where", None) for action in actions]
-    return tuple(where.id for where in wheres if where is not None and where.id)
 
 
 def _moves_things(fact: Applied) -> bool:

@@ -1,0 +1,36 @@
+"""Reads which of the settings or styles that an answer listed is chosen: "use the second one"."""
+
+from __future__ import annotations
+
+from service.grammar.answer_words import CHOOSES, LAST
+from service.grammar.engine import Language
+from service.grammar.parse_types import Ambiguous, Choice, Parse, Understood
+from service.grammar.sentences import Unsayable
+from service.grammar.tokens import normalise, tokenise
+from service.grammar.topic import Topic
+
+
+def choose_listed(language: Language, text: str, topic: Topic) -> Parse | None:
+    """The choice of one of them; one that is only named is asked about. None where none is chosen."""
+    if not topic.offered:
+        return None
+    answers, numbers = language.data.answers, language.data.numbers
+    tokens = tokenise(normalise(text), language.data.contractions)
+    while tokens and not any(char.isalnum() for char in tokens[-1].text):
+        tokens = tokens[:-1]
+    start = answers.beginning(tokens, CHOOSES)
+    rest = tokens[start:]
+    found = {at: number for at in range(len(rest)) if (number := numbers.read(rest, at))}
+    ordinals = {at: nth for at, token in enumerate(rest) if (nth := numbers.ordinal(token))}
+    place = answers.whole(rest, found, ordinals)
+    if place == LAST:
+        place = len(topic.offered)
+    if not isinstance(place, int) or not 1 <= place <= len(topic.offered):
+        return None
+    actions = (topic.offered[place - 1],)
+    if start:
+        return Understood(text, actions)
+    try:
+        return Ambiguous(text, answers.shall, (Choice(language.sentence(actions), actions),))
+    except Unsayable:
+        return None
