@@ -31,6 +31,7 @@ LEFT: Final[Mapping[int, Mapping[str, Any]]] = MappingProxyType(
         1: MappingProxyType(
             {"attentive": 0.0, "collision": "cell", "planner": "priority", "repetition": False},
         ),
+        2: MappingProxyType({}),
     }
 )
 """By version, the defaults that held under it and were changed with the next one, by field of `Config`."""

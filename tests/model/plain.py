@@ -80,10 +80,16 @@ class Step:
     jumped: bool
     paused_before: bool
     paused_after: bool
+    paces: tuple[float | str, float | str] = (1.0, 1.0)
+    """the playback speed before and after"""
+
+    @property
+    def same_road(self) -> bool:
+        return self.before.log == self.after.log and not (self.jumped and self.before.tick != self.after.tick)
 
     @property
     def empty(self) -> bool:
-        return self.before.log == self.after.log and not (self.jumped and self.before.tick != self.after.tick)
+        return self.same_road and self.paces[0] == self.paces[1]
 
 
 @dataclass
@@ -269,9 +275,11 @@ class Plain:
             done=_ground(log, tick, begins),
         )
         pace = () if self.pace == 1.0 else (Set(parameter="playback_speed", value=self.pace),)
-        for each in (pace, actions):
-            if each:
-                new = new.said(each, None, again=True)
+        if pace:
+            new = new.said(pace, None, again=True)
+            new.done, new.undone = _ground(log, tick, begins), ()  # what it begins with is no step
+        if actions:
+            new = new.said(actions, None, again=True)
         new.write_down()
         if paused is not None:
             new.paused = paused
@@ -340,22 +348,24 @@ class _Doing:
 
     def begin(self) -> None:
         """From here on, what is done is what an undo in the same breath takes back first."""
-        self.open = self.now.stand, self.now.paused, False
+        self.open = self.now.stand, self.now.paused, False, self.now.pace
 
     def all(self, actions: tuple[Action, ...]) -> None:
         now, before = self.now, self.before
         for action in actions:
             _check_offered(action)
             getattr(self, f"_{action.do}", self._road)(action)
-        if any((each.do in ROAD and not is_pace(each)) or each.do in ("rewind", "load") for each in actions):
+        if any(each.do in ROAD or each.do in ("rewind", "load") for each in actions):
             now.done, now.undone = before.done, before.undone
-            self.close(before.stand, before.paused, self.jumped)
+            self.close(before.stand, before.paused, self.jumped, before.pace)
 
-    def close(self, stand: Stand, paused: bool, jumped: bool) -> None:
-        step = Step(stand, self.now.stand, jumped, paused, self.now.paused)
+    def close(self, stand: Stand, paused: bool, jumped: bool, pace: float | str) -> None:
+        step = Step(stand, self.now.stand, jumped, paused, self.now.paused, (pace, self.now.pace))
         if step.empty:
             return
-        self.now.done, self.now.undone = (*self.now.done, step), ()
+        self.now.done = (*self.now.done, step)
+        if jumped or not step.same_road:
+            self.now.undone = ()
         jumps = [number for number, each in enumerate(self.now.done) if each.jumped]
         if step.jumped and len(jumps) > self.now.limits.jumps:
             self.now.done = self.now.done[jumps[0] + 1 :]
@@ -404,7 +414,7 @@ class _Doing:
 
     def _go(self, stand: Stand) -> None:
         self.now.stand = stand
-        self.open = (*self.open[:2], True)
+        self.open = (*self.open[:2], True, self.open[3])
         self.jumped = True
 
     def _undo(self, _: Action) -> None:
@@ -415,7 +425,7 @@ class _Doing:
         step, now.done = now.done[-1], now.done[:-1]
         step = replace(step, after=now.stand) if step.jumped else step
         now.undone = (*now.undone, step)
-        self._take(step, step.before, step.paused_after, step.paused_before)
+        self._take(step, step.before, step.paused_after, step.paused_before, step.paces[0])
 
     def _redo(self, _: Action) -> None:
         now = self.now
@@ -425,14 +435,16 @@ class _Doing:
         step, now.undone = now.undone[-1], now.undone[:-1]
         step = replace(step, before=now.stand) if step.jumped else step
         now.done = (*now.done, step)
-        self._take(step, step.after, step.paused_before, step.paused_after)
+        self._take(step, step.after, step.paused_before, step.paused_after, step.paces[1])
 
-    def _take(self, step: Step, stand: Stand, was: bool, will: bool) -> None:
+    def _take(self, step: Step, stand: Stand, was: bool, will: bool, pace: float | str) -> None:
         now = self.now
         now.stand = stand if step.jumped else Stand(stand.log, now.tick)
         self.jumped = self.jumped or step.jumped
         if now.paused == was:
             now.paused = will
+        if step.paces[0] != step.paces[1]:
+            now.pace = pace
         self.begin()
 
 

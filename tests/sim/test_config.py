@@ -29,7 +29,7 @@ def problems(**parts: Any) -> dict[str, str]:
     return told
 
 
-def test_the_defaults_are_the_source_s_table_and_the_rules_of_version_2() -> None:
+def test_the_defaults_are_the_source_s_table_and_the_rules_of_version_3() -> None:
     config = Config()
     assert (config.columns, config.visible_rows, config.rows) == (8, 8, 30)
     assert (config.cell_m, config.step_seconds) == (5.0, 0.5)
@@ -37,7 +37,7 @@ def test_the_defaults_are_the_source_s_table_and_the_rules_of_version_2() -> Non
     assert (config.potholes, config.vehicles) == (None, None)
     assert (config.sensor, config.courtesy) == ("perfect", 0.0)
     assert (config.planner, config.collision) == ("rules", "swept")
-    assert (config.attentive, config.repetition, config.rules) == (1.0, True, 2)
+    assert (config.attentive, config.repetition, config.rules) == (1.0, True, 3)
     assert config.max_ticks == 300
     assert config.reset_delay_ticks == 4
 
