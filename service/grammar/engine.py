@@ -21,6 +21,7 @@ from service.grammar.compiled import check_fit, load_language
 from service.grammar.correction import answer_correction, opening_words
 from service.grammar.data import LanguageData, read_language
 from service.grammar.free_text import TEACH, find_names
+from service.grammar.lanes_from_right import resolve_lanes_from_right
 from service.grammar.lattice import Lattice, Name, Scanner
 from service.grammar.linter import defects
 from service.grammar.matching import Frames
@@ -112,6 +113,7 @@ class Language:
         kept = find_names(tokens, self._lexicon, restore_marks(text, plain), topic)
         tokens, corrections = self._fix_typos(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
+        resolve_lanes_from_right(lattice, topic)
         withhold(lattice, self.data.free)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)

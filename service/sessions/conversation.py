@@ -240,6 +240,7 @@ class Conversation:
             where=self._where,
             phrases=phrases,
             names=frozenset(name.casefold() for name in names),
+            columns=world.road.columns,
         )
 
 
