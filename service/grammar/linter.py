@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from service.grammar.accounting import MARKERS
 from service.grammar.data import LanguageData
 from service.grammar.frame_use import dropped
+from service.grammar.fragments import BEGINS_NEGATION
 from service.grammar.frames import Frame
 from service.grammar.lanes_from_right import FROM_RIGHT
 from service.grammar.lattice import GLUE, NAME, NUMBER, UNIT
@@ -25,7 +26,7 @@ ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
     | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
     | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
-    | {"refers", "taught", "repeated", "repair", "contrast", "order", "chat", "chat_filler", FROM_RIGHT}
+    | {"refers", "taught", "repeated", "repair", "contrast", "order", "chat", "chat_filler", FROM_RIGHT, BEGINS_NEGATION}
     | POINTING
     | MARKERS
 )

@@ -118,9 +118,18 @@ class Repair:
             before = self._written(0, self._edge.start if end < self._tail else self._end)
             text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
             parsed = read(text)
-            if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in found):
+            if not isinstance(parsed, Understood) or (self._points(end) and _adds(parsed.actions)):
+                continue
+            if all(c.actions != parsed.actions for c in found):
                 found.append(Choice(text, parsed.actions))
         return found
+
+    def _points(self, end: int) -> bool:
+        """Whether what is dropped are things on the road: "instead of that cone" is more than not to add one."""
+        return any(
+            edge.concept == QUANTITY and edge.sense.value in _DEFINITE
+            for edge in self._lattice.between(self._again, end)
+        )
 
     def _stands_elsewhere(self, end: int) -> bool:
         """Whether something of the same pattern as what is dropped is kept; else too much is dropped."""
@@ -227,6 +236,11 @@ class Repair:
 
     def _written(self, start: int, end: int) -> str:
         return self._plain[self._tokens[start].start : self._tokens[end - 1].end] if start < end else ""
+
+
+def _adds(actions: Sequence[Action]) -> bool:
+    """Whether something is put on the road."""
+    return any(isinstance(action, Add) for action in actions)
 
 
 def _as_many(found: list[Choice], as_said: object) -> list[Choice]:
