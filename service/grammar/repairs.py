@@ -13,11 +13,13 @@ from collections.abc import Callable, Iterator, Sequence
 
 from service.actions import Action
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
+from service.grammar.noun_phrases import QUANTITY
 from service.grammar.parse_types import Choice, Understood
 from service.grammar.paths import SEPARATOR
 from service.grammar.span_patterns import REPAIR, SKIPPED, SpanPattern, ends_of_pieces, steps_of
 from service.grammar.tokens import Token
 from service.grammar.work_budget import WorkBudget
+from sim.actions import Add
 
 ALWAYS = "always"
 """Value of those that do wherever they stand: "I mean"."""
@@ -33,6 +35,9 @@ NUMBERS = "numbers"
 
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
+
+_DEFINITE = ("that", "those", "the", "of_the", "nearest", "all", "every", "both")
+"""Quantities of things that are on the road already."""
 
 _ALIKE = (
     ("add", "remove", "set_count", "scenario"),
