@@ -253,6 +253,8 @@ def _number_after(lattice: Lattice, phrase: Edge) -> Edge | None:
     for edge in lattice.edges[at]:
         if edge.sense.concept == NUMBER:
             amount = Amount(phrase.sense.value.of, edge.sense.value)
+            of_them = [e.end for e in _at(lattice, edge.end) if e.sense.value == OF_THE]
+            edge = edge._replace(end=max(of_them, default=edge.end))
             more = next((e for e in _at(lattice, edge.end) if e.sense.value == "more"), None)
             if more is not None:
                 return Edge(phrase.start, more.end, Sense(f"{name}.more", amount))
