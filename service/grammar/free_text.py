@@ -23,6 +23,8 @@ FORGETS = "forgets"
 TEACH = "teach"
 MEANS = "means"
 SAVES = "save"
+CHAT = "chat"
+"""Concept of small talk."""
 ORDER = "order"
 """Concept of words that say that something is done before the rest; a name ends before them."""
 SHORT = "short"
@@ -70,6 +72,9 @@ def find_names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topi
             meaning = at = _past_means(tokens, name.end, lexicon)
             continue
         after = _longest(lexicon, tokens, at, CAPTURE)
+        if after < _longest(lexicon, tokens, at, CHAT):  # "call it a day" names nothing
+            at += 1
+            continue
         if not after or not (at == meaning or _begins(tokens, at, lexicon)):
             at += 1
             continue

@@ -30,11 +30,16 @@ PERHAPS = "perhaps"
 DROPPED = "dropped"
 """That of words after which stands what shall not be: "instead of"."""
 
+DENIED = "denied"
+"""That of words after which an amount stands that is not meant: "to 0.4, not 0.5", "not two but four"."""
+
 NUMBERS = "numbers"
 """That of words that take back only where a number follows: "no three"."""
 
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
+
+_AMOUNTS = frozenset((NUMBER, "length", "speed", "seconds", "fraction", "times", "part_of"))
 
 _DEFINITE = ("that", "those", "the", "of_the", "nearest", "all", "every", "both")
 """Quantities of things that are on the road already."""
@@ -84,7 +89,9 @@ class Repair:
             one = cls(plain, tokens, lattice, edge, work)
             if edge.sense.value == NUMBERS and not one._begins_with_number():
                 continue
-            if edge.sense.value == DROPPED and one._says_something(one._again, one._tail):
+            if edge.sense.value == DENIED and not one._denies_amount():
+                continue
+            if edge.sense.value in (DROPPED, DENIED) and one._says_something(one._again, one._tail):
                 return one
             if one._says_something(0, one._end) and one._says_something(one._again, one._tail):
                 return one
@@ -107,6 +114,8 @@ class Repair:
 
     def readings(self, read: Read) -> list[Choice] | None:
         """The sentences that may be meant; None where nothing was taken back after all."""
+        if self._value == DENIED:
+            return self._without(read) or None
         if self._value == DROPPED:
             return self._without(read)
         if self._value == ALWAYS and self._alike(read) is False:
@@ -121,7 +130,7 @@ class Repair:
         found: list[Choice] = []
         for end in sorted(end for end in said if end <= self._tail and self._stands_elsewhere(end)):
             before = self._written(0, self._edge.start if end < self._tail else self._end)
-            text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
+            text = f"{before} {self._written(self._past_separators(end), self._lattice.size)}".strip(" ,;")
             parsed = read(text)
             if not isinstance(parsed, Understood) or (self._points(end) and _adds(parsed.actions)):
                 continue
@@ -235,6 +244,11 @@ class Repair:
     def _begins_with_number(self) -> bool:
         after = self._lattice.edges[self._again] if self._again < self._lattice.size else []
         return any(edge.concept == NUMBER for edge in after)
+
+    def _denies_amount(self) -> bool:
+        """Whether an amount follows and nothing else, up to the end of the part."""
+        here = self._lattice.edges[self._again] if self._again < self._lattice.size else []
+        return any(edge.concept in _AMOUNTS and edge.end == self._tail for edge in here)
 
     def _says_something(self, start: int, end: int) -> bool:
         return any(edge.concept not in SKIPPED for edge in self._lattice.between(start, end))
