@@ -13,10 +13,13 @@ from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.paths import SEPARATOR
 
 TIME = "time_clause"
-"""Concept of the words that begin such a part; their value says on which side of it the other part is."""
+"""Concept of the words that begin such a part; their value says which part is done first, and what may follow."""
 
-AFTER = "after"
-"""That of words whose part comes first: "after adding two cars"."""
+AFTER = ("after", "after_doing")
+"""Those of words whose part comes first: "after adding two cars"."""
+
+DOING = ("before_doing", "after_doing")
+"""Those of words that name nobody who does it: only a verb in one of the forms may follow."""
 
 FORMS = frozenset(("ing", "past"))
 """Forms of verbs in such a part."""
@@ -37,8 +40,8 @@ def read_in_time(lattice: Lattice, divide: Divide) -> list[list[Clause]]:
     for mark in marks:
         for told, main in _parts(lattice, mark):
             other, own = _requests(divide(*told, FORMS)), _requests(divide(*main, frozenset()))
-            if other and own:
-                both = [*other, *own] if mark.sense.value == AFTER else [*own, *other]
+            if other and own and (mark.sense.value not in DOING or _is_doing(other[0])):
+                both = [*other, *own] if mark.sense.value in AFTER else [*own, *other]
                 return [both, own]
     return []
 
@@ -55,6 +58,11 @@ def _parts(lattice: Lattice, mark: Edge) -> Iterator[tuple[tuple[int, int], tupl
     cuts = [(edge.start, edge.end) for edge in pauses] or [(at, at) for at in range(mark.end + 1, size)]
     for end, begin in cuts[-MAX_CUTS:]:
         yield (mark.end, end), (begin, size)
+
+
+def _is_doing(clause: Clause) -> bool:
+    """Whether its verb is in one of the forms."""
+    return any(edge.sense.form in FORMS for edge in clause.filled.slots)
 
 
 def _requests(divided: Divided) -> Sequence[Clause]:
