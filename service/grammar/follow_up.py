@@ -23,6 +23,8 @@ from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
 from service.grammar.sentences import Unsayable
 from service.grammar.setting_talk import read_of_setting
+from service.grammar.short_talk import read_short
+from service.grammar.thing_talk import named_two, read_of_things
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
@@ -50,6 +52,12 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
         of_setting = read_of_setting(language, text, topic, parsed)
         if of_setting is not None:
             return of_setting
+    if alone and (
+        said := read_short(language, text, topic)
+        or read_of_things(language, text, topic)
+        or named_two(language, text, topic)
+    ):
+        return said
     if not topic.actions or topic.undone:
         return _completed(language, text, topic, parsed)
     if isinstance(parsed, Understood) and _takes_the_place(language, text, topic, parsed):
@@ -161,12 +169,12 @@ class _Leaning:
         numbers = {at: found for at in range(min(len(tokens), MAX_SHORT)) if (found := read(tokens, at))}
         follows = answers.beginning(tokens, FOLLOWS)
         corrects = answers.beginning(tokens, CORRECTS, numbers)
-        instead = answers.ending(tokens, INSTEAD)
-        if not (follows or corrects or instead or self._asks_on):
+        instead, too = answers.ending(tokens, INSTEAD), answers.ending(tokens, TOO)
+        if not (follows or corrects or instead or too or self._asks_on):
             return None
         correcting = bool(corrects > follows or instead)
         start = corrects if corrects > follows else follows
-        rest = tokens[start : len(tokens) - max(instead, answers.ending(tokens, TOO))]
+        rest = tokens[start : len(tokens) - max(instead, too)]
         if not rest:
             return None
         done = self._topic.actions

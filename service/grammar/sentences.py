@@ -74,6 +74,10 @@ class Sentences(ThingSentences):
         """What a value of a setting is called. Raises `Unsayable`."""
         return self._value(parameter, name)
 
+    def view(self, name: str) -> str:
+        """What a view is called. Raises `Unsayable`."""
+        return self._word("views", name)
+
     def sentence(self, actions: Sequence[Action]) -> str:
         """One sentence for all of them, in order. Raises `Unsayable`."""
         if not actions or not self._words:
