@@ -76,7 +76,7 @@ def read_of_setting(language: Language, text: str, topic: Topic, parsed: Parse) 
 
 def _about_settings(actions: Sequence[Action], *, explained: bool) -> bool:
     if explained:
-        return all(isinstance(action, Ask) and action.about == "term" for action in actions)
+        return all(isinstance(action, Ask) and action.about in ("term", "setting") for action in actions)
     return all(
         isinstance(action, Set | Adjust)
         or (isinstance(action, Ask) and action.about in ("setting", "term", "options"))

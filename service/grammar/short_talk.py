@@ -45,7 +45,7 @@ def read_short(language: Language, text: str, topic: Topic) -> Parse | None:
     if not tokens or len(tokens) > MAX_WORDS:
         return None
     answers = language.data.answers
-    if topic.asked and answers.meant(tokens, ASKS_AGAIN) is not None:
+    if topic.asked and answers.beginning(tokens, ASKS_AGAIN) == len(tokens):
         return Understood(text, topic.asked)
     if not topic.request or topic.undone:
         return None

@@ -7,7 +7,7 @@ questions about things of that kind come of it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from dataclasses import replace
 
 from service.actions import Action, Ask
 from service.grammar.answer_words import (
@@ -21,13 +21,12 @@ from service.grammar.answer_words import (
     TWO,
 )
 from service.grammar.engine import Language
-from service.grammar.lattice import GLUE
+from service.grammar.lattice import GLUE, Lattice
 from service.grammar.parse_types import Parse, Understood
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
-from sim.actions import Replace
-from sim.types import kind_of
+from sim.actions import Add, Replace, SetCount
 
 MAX_WORDS = 14
 """Longer sentences name what they are about."""
@@ -55,26 +54,58 @@ def kinds_of(actions: Sequence[Action]) -> set[str]:
     return kinds
 
 
+def read_asked(language: Language, text: str, topic: Topic) -> Parse | None:
+    """A sentence that is one about the kind spoken of, or about two things: "how many are left?", "swap them"."""
+    tokens = _tokens(language, text)
+    answers, kind = language.data.answers, kind_spoken_of(topic)
+    names = language.sentences.names(kind) if kind is not None else {}
+    said = None
+    if names and (template := answers.meant(tokens, OF_THINGS)) is not None:
+        said = str(template).format(**names)
+    elif (both := two_things(topic)) is not None and (template := answers.meant(tokens, TWO)) is not None:
+        said = str(template).format(*both)
+    if said is None:
+        return None
+    try:
+        meant = language.read(said, topic, WorkBudget(), asking=False)
+    except BudgetExceededError:
+        return None
+    return replace(meant, text=text) if isinstance(meant, Understood) else None
+
+
+def _tokens(language: Language, text: str) -> Sequence[Token]:
+    """The words of a text, without marks at the end."""
+    tokens = tokenise(normalise(text), language.data.contractions)
+    while tokens and not any(char.isalnum() for char in tokens[-1].text):
+        tokens = tokens[:-1]
+    return tokens
+
+
 def read_of_things(language: Language, text: str, topic: Topic) -> Parse | None:
     """What a sentence says of the kind of thing spoken of last; None where it says nothing of it."""
     kind = kind_spoken_of(topic)
     names = language.sentences.names(kind) if kind is not None else {}
     if kind is None or not names:
         return None
-    tokens = tokenise(normalise(text), language.data.contractions)
-    while tokens and not any(char.isalnum() for char in tokens[-1].text):
-        tokens = tokens[:-1]
+    tokens = _tokens(language, text)
     if not tokens or len(tokens) > MAX_WORDS:
         return None
     work = WorkBudget()
     try:
         for said in dict.fromkeys(_InFull(language, text, tokens, topic, names).sentences()):
             meant = language.read(said, topic, work, asking=False)
-            if isinstance(meant, Understood) and _all_of(kind, meant.actions):
-                return Understood(text, meant.actions, supposes=meant.supposes)
+            if isinstance(meant, Understood) and _all_of(kind, meant.actions) and _sure(language, text, topic, meant):
+                return replace(meant, text=text)
     except BudgetExceededError:
         return None
     return None
+
+
+def _sure(language: Language, text: str, topic: Topic, meant: Understood) -> bool:
+    """Whether things are added only by a verb, or after others were: "two in lane 4" says nothing else."""
+    adds = any(isinstance(action, Add) for action in meant.actions)
+    verb = any(concept.startswith("v.") for concept in language.concepts(text))
+    return not adds or verb or all(isinstance(action, Add | SetCount) for action in topic.actions)
 
 
 def _all_of(kind: str, actions: Sequence[Action]) -> bool:
@@ -109,9 +140,6 @@ class _InFull:
 
     def sentences(self) -> Iterator[str]:
         """The sentences in full, in the order in which they are tried."""
-        template = self._answers.meant(self._tokens, OF_THINGS)
-        if template is not None:
-            yield str(template).format(**self._names)
         counted = self._answers.meant(self._tokens, COUNTED, self._numbers)
         if counted is not None:
             ((form, count),) = counted.items()
@@ -132,21 +160,16 @@ class _InFull:
 
     def _with_noun(self, tokens: Sequence[Token]) -> Iterator[str]:
         """ "One in lane 5", "the ones on the left", "take two away"."""
+        scan = self._language.scan(tokens)
         for at in range(len(tokens)):
             end, nouns = self._answers.longest(tokens, at, NOUN)
-            for noun in nouns if end > at else ():
+            for noun in nouns if end > at and not _in_phrase(scan, at, end) else ():
                 yield self._joined(tokens, at, end, str(noun).format(**self._names))
-        scan = self._language.scan(tokens)
         for at in range(len(tokens)):
             found = self._language.data.numbers.read(tokens, at)
             if found is None or not isinstance(found.value, int) or found.value < 1:
                 continue
-            wider = any(
-                edge.start <= at and found.end <= edge.end and edge.end - edge.start > found.end - at
-                for edge in scan.all()
-                if edge.concept != GLUE
-            )
-            if not wider:
+            if not _in_phrase(scan, at, found.end):
                 noun = self._names["one" if found.value == 1 else "many"]
                 yield self._joined(tokens, found.end, found.end, noun)
 
@@ -157,23 +180,16 @@ class _InFull:
         return " ".join(part for part in (before, words, after) if part)
 
 
+def _in_phrase(scan: Lattice, start: int, end: int) -> bool:
+    """Whether words are a part of a longer phrase, as the number of a lane is."""
+    return any(
+        edge.start <= start and end <= edge.end and edge.end - edge.start > end - start
+        for edge in scan.all()
+        if edge.concept != GLUE
+    )
+
+
 def two_things(topic: Topic) -> tuple[str, str] | None:
     """The two things that "them" are: those spoken of last, or that one and the one before it."""
     both = topic.things if len(topic.things) == 2 else (*topic.before, *topic.things)
     return (both[0], both[1]) if len(both) == 2 else None
-
-
-def named_two(language: Language, text: str, topic: Topic) -> Parse | None:
-    """What a sentence says of two things that it calls "them", where it needs each by itself: "swap them"."""
-    both = two_things(topic)
-    if both is None:
-        return None
-    tokens = tokenise(normalise(text), language.data.contractions)
-    meant: Any = language.data.answers.meant(tokens, TWO)
-    if meant is None:
-        return None
-    parsed = language.read(str(meant).format(*both), topic, WorkBudget(), asking=False)
-    kinds = {kind_of(name) for name in both}
-    if not isinstance(parsed, Understood) or not kinds:
-        return None
-    return Understood(text, parsed.actions)
