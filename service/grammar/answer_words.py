@@ -103,6 +103,8 @@ class Answers:
     """what is said where a choice is answered that there is none of"""
     setting_asked: str = ""
     """a question for a setting that is only named: "and the courtesy?" """
+    setting_named: str = "{setting}"
+    """a setting as a sentence names it: "the courtesy" """
     incomplete: tuple[Mapping[str, Any], ...] = ()
     """questions about requests that lack something (`ask`), and how each may be completed (`with`)"""
     counted_things: Mapping[str, str] = field(default_factory=dict)
@@ -124,6 +126,7 @@ class Answers:
             data.get("replaces", ""),
             data.get("no_such_choice", ""),
             data.get("setting_asked", ""),
+            data.get("setting_named", "{setting}"),
             tuple(data.get("incomplete", ())),
             data.get("counted_things", {}),
             data.get("shall", ""),

@@ -17,7 +17,7 @@ from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
 from service.grammar.parse_types import Parse, Refused, Understood
-from service.grammar.said_before import done_anew, take_back
+from service.grammar.said_before import done_anew, take_back, take_back_change
 from service.grammar.tokens import Token
 from service.grammar.topic import Phrases, Topic
 from sim.actions import Adjust, MoveThings, Remove, Replace, Set, Swap, Where
@@ -151,7 +151,7 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
         case "other" | "others" as which:
             return _others(start, end, topic, one=which == "other")
         case "back" if _took_away(topic):
-            return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
+            return Edge(start, end, Sense(REPEATED, dump((take_back_change(topic),))))
         case "back_both" | "undo_both" as which if steps := steps_of_two(
             topic, put_back=which == "back_both"
         ):
@@ -160,7 +160,7 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
             return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
         case "closest" if topic.listed:
             kinds = {kind_of(name) for name in topic.listed}
-            kind = {"kind": kinds.pop()} if len(kinds) == 1 else {}
+            kind = {"kind": kinds.pop(), "count": 1} if len(kinds) == 1 else {}
             return Edge(start, end, Sense(REPEATED, [{"do": "ask", "about": "scene", **kind}]))
         case "same_lane" | "other_lane" as which:
             lane = _lane_before(lattice, start, topic.where)
@@ -266,8 +266,8 @@ def _so_many(start: int, end: int, topic: Topic, number: int) -> Edge | Unclear:
 
 def _took_away(topic: Topic) -> bool:
     """Whether the last request took things off the road."""
-    away = any(isinstance(action, _MOVED) for action in topic.actions)
-    return away and bool(topic.steps) and not topic.undone
+    away = any(isinstance(action, _MOVED) for action in topic.changed)
+    return away and bool(topic.changed_steps) and not topic.undone
 
 
 def _pointed_at(topic: Topic) -> bool:

@@ -219,6 +219,8 @@ class Sentences(ThingSentences):
                 return self._say(key, move=move, tick=ask.tick)
             case "what_if":
                 return self._say("what_if", change=self.sentence(ask.change or ()))
+            case "scene" if ask.kind is not None and ask.count is not None:
+                return self._say("scene_nearest", thing=self._entry("things", ask.kind)[0])
             case "scene" if ask.kind is not None:
                 return self._say("scene_kind", things=self._entry("things", ask.kind)[1])
             case "metrics" if ask.metric is not None:

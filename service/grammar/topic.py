@@ -52,6 +52,10 @@ class Topic:
     """how that was said; empty for typed actions"""
     steps: int = 0
     """how many steps of undo take it back; a correction of a correction takes back both"""
+    changed: tuple[Action, ...] = ()
+    """the last change that was made, whatever was asked since: "put it back" undoes it"""
+    changed_steps: int = 0
+    """how many steps of undo take it back; 0 where there is none"""
     steps_before: int = 0
     """the same of the change before the last one; 0 where there is none"""
     away: tuple[int, ...] = ()

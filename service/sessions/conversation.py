@@ -74,6 +74,9 @@ class Conversation:
         """ids of what the latest change of things took off the road: after an undo they are "it" """
         self._said_actions: tuple[Action, ...] = ()
         """the last request as it was said: a goal, not what it came to"""
+        self._changed: tuple[Action, ...] = ()
+        self._changed_steps = 0
+        """the last request that was no question, and its steps of undo"""
         self._asked: tuple[Action, ...] = ()
         """the last question"""
         self._undone = False
@@ -138,7 +141,7 @@ class Conversation:
         own = actions[1:] if begins_with_undo else actions
         if any(isinstance(action, Undo | Redo | Drop) for action in own):
             if not all(isinstance(action, Drop) for action in own):
-                self._steps = 0
+                self._steps = self._changed_steps = 0
                 self._latest_steps = self._away = ()
             return
         taken_back = sum(fact.steps for fact in facts[:1] if isinstance(fact, Undone))
@@ -147,6 +150,8 @@ class Conversation:
         self._said = "" if begins_with_undo else text or ""
         if all(traits_of(action).is_question for action in own):
             self._asked = own
+        if step:
+            self._changed, self._changed_steps = own, self._steps
         if step:
             kept = () if taken_back else self._latest_steps
             self._latest_steps = (*kept, self._steps)[-2:]
@@ -216,6 +221,8 @@ class Conversation:
             "actions": contract.dump(self._actions),
             "said": self._said,
             "steps": self._steps,
+            "changed": contract.dump(self._changed),
+            "changed_steps": self._changed_steps,
             "latest_steps": [*self._latest_steps],
             "away": [*self._away],
             "listed": [*self._listed],
@@ -235,6 +242,8 @@ class Conversation:
         new._added.extend(values["added"])
         new._actions = contract.load(values["actions"])
         new._said, new._steps, new._listed = values["said"], values["steps"], tuple(values["listed"])
+        new._changed = contract.load(values["changed"]) if values.get("changed") else ()
+        new._changed_steps = values.get("changed_steps", 0)
         new._taken = tuple(values.get("taken", ()))
         new._latest_steps = tuple(values.get("latest_steps", ()))
         new._away = tuple(values.get("away", ()))
@@ -258,6 +267,8 @@ class Conversation:
             asked=self._asked,
             said=self._said,
             steps=self._steps,
+            changed=self._changed,
+            changed_steps=self._changed_steps,
             steps_before=self._latest_steps[0] if len(self._latest_steps) > 1 else 0,
             away=self._away,
             named=named(self._actions),
