@@ -72,7 +72,7 @@ class Ask:
     ticks: Ticks | None = None
     """how far back a question about the past goes, instead of from `tick`"""
     count: Annotated[int, Ge(1), Le(1000)] | None = None
-    """how many of the latest changes are meant"""
+    """how many of the latest changes are meant; 1 of the things of a kind: the nearest one"""
 
     __pydantic_config__ = STRICT
 
@@ -86,6 +86,8 @@ class Ask:
                 raise ValueError(f"a question about {self.about} needs '{key}'")
         if self.about == "setting" and self.parameter in get_args(Choosable):
             raise ValueError(f"'{self.parameter}' has options and no value")
+        if self.about == "scene" and self.count is not None and (self.count != 1 or self.kind is None):
+            raise ValueError("a question about the scene counts one thing, the nearest of a kind")
         if self.what is not None:
             self._check_ticks(self.what)
         _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))

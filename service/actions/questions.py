@@ -117,7 +117,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "why_not": QuestionTraits(("move", "tick"), ("move",), runs_episodes=True),
     "what_if": QuestionTraits(("change",), ("change",), runs_episodes=True),
     "next": QuestionTraits(),
-    "scene": QuestionTraits(("kind",)),
+    "scene": QuestionTraits(("kind", "count")),
     "status": QuestionTraits(),
     "metrics": QuestionTraits(("metric",)),
     "confidence": QuestionTraits(runs_episodes=True),
