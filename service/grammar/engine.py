@@ -112,7 +112,7 @@ class Language:
         kept = find_names(tokens, self._lexicon, restore_marks(text, plain), topic)
         tokens, corrections = self._fix_typos(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
-        withhold(lattice, self.data.free)
+        withhold(lattice, self.data.free, self.data.idle)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)
         uncovered = bool(lattice.uncovered())
