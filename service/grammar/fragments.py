@@ -76,7 +76,7 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             if _says_something(lattice, begin, at):
                 found.append(Fragment(after, begin, at))
                 after = str(separator.sense.value)
-            elif str(separator.sense.value) not in _MARKS:
+            elif str(separator.sense.value) not in _MARKS and after != OR:
                 after = str(separator.sense.value)
             at = begin = inside = separator.end
             continue
