@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from service.grammar.composition import Composition, Matcher, asks, within
-from service.grammar.fragments import BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, Fragment
+from service.grammar.fragments import AND, BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, Fragment
 from service.grammar.frames import Filled
 from service.grammar.lattice import NUMBER, Edge, Lattice
 from service.grammar.lexicon import Sense
@@ -34,6 +34,8 @@ _FURTHER = ("more", "another")
 _PLACED = ("place", "side", "length")
 
 CONTRAST = "contrast"
+ADD = "add"
+SCENARIO = "scenario"
 EVERYTHING = "everything"
 
 
@@ -91,7 +93,9 @@ class Divider:
         at = 0
         while at < len(parts):
             clause, used = self._next(parts, at, context)
-            if clause is None:
+            if clause is not None and at + used < len(parts) and self._either_way(parts, at, at + used):
+                clause, at = None, at + used
+            if clause is None or (divided.clauses and self._says_twice(divided.clauses[-1], clause, parts[at])):
                 divided.failed = parts[at]
                 return divided
             divided.clauses.append(replace(clause, after=parts[at].after))
@@ -109,20 +113,25 @@ class Divider:
             if not clause.actions:  # it says only what not to do, or asks for itself
                 return clause, used
             said = parts[at : at + used]
+            asked = self._composition.first_question(clause.actions, said)
+            if asked is not None:
+                end = at + max(asked, 1)
+                continue
             heads = self._composition.heads(clause.filled, said)
             if not heads:
                 swallowed = self._composition.swallows((clause.filled, clause.actions), said)
                 return (self._or_apart(clause, said, context) if swallowed else clause), used
             apart = self._requests(said, heads, context)
             if apart is None or _same(apart, clause):
-                return clause, used
+                swallowed = self._composition.swallows((clause.filled, clause.actions), said[: heads[0]])
+                return (self._or_apart(clause, said, context) if swallowed else clause), used
             own = self._composition.verb_of_its_own(said[0]) is not None
             optional = _optional(clause, apart)
             leans = bool(context.verb) and self._composition.alone(said[0]) is None
             if not (own or optional or context.verb):
                 return clause, used
-            if own or said[heads[0]].after == STOP or (optional and leans):
-                end = at + heads[0]
+            if own or said[heads[-1]].after == STOP or (optional and leans):
+                end = at + heads[-1]
                 continue
             return replace(clause, instead=tuple(apart)), used
 
@@ -181,6 +190,23 @@ class Divider:
                 if leaning is not None:
                     return Clause(start, stop, *leaning), end - at
         return None, 0
+
+    def _either_way(self, parts: Sequence[Fragment], first: int, at: int) -> bool:
+        """Whether a part may belong to the request before it as well as to the one after it."""
+        if parts[at].after == PAUSE or parts[at].after not in _TOGETHER or not self._begins_request(parts, at):
+            return False
+        before = self._stretches.make(parts[first].start, parts[at].end, joined=True)
+        return self._matcher.match(before, verbless=False) is not None
+
+    def _says_twice(self, before: Clause, clause: Clause, part: Fragment) -> bool:
+        """Whether a part without a verb would be in the scenario before it, which has that already."""
+        if part.after not in (PAUSE, AND) or self._composition.verb_of_its_own(part) is not None:
+            return False
+        said = {key for action in before.actions if action["do"] == SCENARIO for key in action}
+        return any(
+            action["do"] == ADD and "where" not in action and f"{action['kind']}s" in said
+            for action in clause.actions
+        )
 
     def _begins_request(self, parts: Sequence[Fragment], at: int) -> bool:
         """Whether a part only begins the sentence that it stands in: "10 metres ahead, add a cone"."""

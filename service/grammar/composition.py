@@ -75,6 +75,13 @@ class Composition:
             if at and not kept[at] and self.verb_of_its_own(part) is not None and not all(kept[:at])
         ]
 
+    def first_question(self, joint: Sequence[Mapping[str, Any]], parts: Sequence[Fragment]) -> int | None:
+        """The first part that is a question by its own words, where the listing asks nothing."""
+        if asks(joint):
+            return None
+        own = ((at, self.verb_of_its_own(part)) for at, part in enumerate(parts))
+        return next((at for at, found in own if found is not None and asks(found[1])), None)
+
     def swallows(self, joint: Reading, parts: Sequence[Fragment]) -> bool:
         """Whether a listing gives one of its parts another meaning than it has alone."""
         verbs = {action["do"] for action in joint[1]}
@@ -131,7 +138,7 @@ def asks(actions: Sequence[Mapping[str, Any]]) -> bool:
 def _belongs(joint: Filled, parts: Sequence[Fragment], at: int) -> bool:
     """Whether a part that is set off by a comma has only what the frame keeps: "at tick 12, why …"."""
     part = parts[at]
-    if parts[max(at, 1)].after != PAUSE:
+    if len(parts) == 1 or parts[max(at, 1)].after != PAUSE:
         return False
     inside = {edge.concept for edge in joint.slots if part.start <= edge.start and edge.end <= part.end}
     fillers = joint.frame.many.difference(*joint.frame.needs)

@@ -14,6 +14,7 @@ from service.grammar.paths import SEPARATOR
 PAUSE = "pause"
 STOP = "stop"
 THEN = "then"
+AND = "and"
 OR = "or"
 EXCEPT = "except"
 """After this comes where something shall not be: "anywhere but the left lane"."""
@@ -31,6 +32,9 @@ REPEATED = "repeated"
 """What was done before, said again: "again"."""
 DROP = "drop"
 """What drops a question: its words may say nothing one by one."""
+_ASKED_ABOUT = "q.thing"
+"""Words that a question about a decision passes over: "back then"."""
+_LOOSE = (GLUE, _ASKED_ABOUT)
 _WHOLE_REQUESTS = (REPEATED, DROP)
 """Phrases that are requests though their words may be glue."""
 
@@ -57,7 +61,7 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             if stop > end or concept == INTERJECTION:
                 continue
             if concept != SEPARATOR:
-                if concept == GLUE and at > begin and _passes_on(lattice, at, stop, end):
+                if concept in _LOOSE and at > begin and _passes_on(lattice, at, stop, end):
                     continue
                 reach = max(reach, stop)
             elif separator is None or stop > separator.end:

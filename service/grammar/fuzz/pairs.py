@@ -15,6 +15,7 @@ from typing import Any, Literal
 from service.actions import dump
 from service.grammar.composition import done_by
 from service.grammar.engine import Language
+from service.grammar.free_text import ORDER
 from service.grammar.fuzz.sayings import Saying
 from service.grammar.lattice import GLUE
 from service.grammar.parse_types import Ambiguous, Parse, Understood
@@ -66,7 +67,18 @@ def verdict(language: Language, pair: Joined) -> Verdict:
     one, other, text = pair
     if _is_idiom(language, one, text):
         return "declared"
-    return judge(one, other, language.parse(text))
+    parsed = language.parse(text)
+    found = judge(one, other, parsed)
+    if found == "changed" and isinstance(parsed, Understood) and _is_ordered(language, pair, dump(parsed.actions)):
+        return "declared"
+    return found
+
+
+def _is_ordered(language: Language, pair: Joined, got: Actions) -> bool:
+    """Whether a word of order in one of them ("first") puts a request before those of the other."""
+    wanted = [*pair[0].actions, *pair[1].actions]
+    ordered = any(ORDER in language.concepts(saying.text) for saying in pair[:2])
+    return ordered and len(got) == len(wanted) and all(got.count(each) == wanted.count(each) for each in wanted)
 
 
 def _is_idiom(language: Language, one: Saying, text: str) -> bool:
