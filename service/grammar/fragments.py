@@ -72,7 +72,10 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
                 after = str(separator.sense.value)
             elif str(separator.sense.value) not in _MARKS:
                 after = str(separator.sense.value)
-            at = begin = inside = separator.end
+            begin = separator.end
+            if separator.sense.value == STOP:
+                begin = _past_interjection(lattice, begin, end)
+            at = inside = begin
             continue
         inside = reach
         at += 1

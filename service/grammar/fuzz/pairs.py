@@ -77,7 +77,8 @@ def verdict(language: Language, pair: Joined) -> Verdict:
 def _is_ordered(language: Language, pair: Joined, got: Actions) -> bool:
     """Whether a word of order in one of them ("first") puts a request before those of the other."""
     wanted = [*pair[0].actions, *pair[1].actions]
-    ordered = any(ORDER in language.concepts(saying.text) for saying in pair[:2])
+    said = (each for saying in pair[:2] for each in language.concepts(saying.text))
+    ordered = any(each.startswith(ORDER) for each in said)
     return ordered and len(got) == len(wanted) and all(got.count(each) == wanted.count(each) for each in wanted)
 
 
@@ -96,7 +97,7 @@ def judge(one: Saying, other: Saying, parsed: Parse) -> Verdict:
     wanted = [*one.actions, *other.actions]
     if got == wanted or got == _without_emphasis(one.actions, other.actions):
         return "same"
-    if _leans(one, other, got) or _takes_in(wanted, got) or _goes_on(one, got):
+    if _leans(one, other, got) or _takes_in(wanted, got) or _goes_on(one, other, got):
         return "declared"
     return "lost" if len(got) < len(wanted) else "changed"
 
@@ -113,9 +114,14 @@ def _leans(one: Saying, other: Saying, got: Actions) -> bool:
     rest = got[len(one.actions) :]
     verbs = {action["do"] for action in one.actions}
     return len(rest) == len(other.actions) and all(
-        said["do"] in verbs and _about(said) == _about(own)
+        said["do"] in verbs and (_about(said) == _about(own) or _is_any(said, own))
         for said, own in zip(rest, other.actions, strict=True)
     )
+
+
+def _is_any(said: Mapping[str, Any], own: Mapping[str, Any]) -> bool:
+    """Whether "any cars", which asks alone, got a verb: "remove the cones and any cars"."""
+    return own["do"] == "ask" and said.get("count") == "all" and said.get("kind") == own.get("kind")
 
 
 def _about(action: Mapping[str, Any]) -> dict[str, Any]:
@@ -127,8 +133,14 @@ def _takes_in(wanted: Actions, got: Actions) -> bool:
     return len(got) < len(wanted) and done_by(wanted, got)
 
 
-def _goes_on(one: Saying, got: Actions) -> bool:
+def _goes_on(one: Saying, other: Saying, got: Actions) -> bool:
     """Whether the second part is in the condition, or the taught phrase, that the first ends with."""
     *before, last = one.actions
     inner = next((key for key in ("change", "meaning") if key in last), None)
-    return inner is not None and list(got[:-1]) == before and last[inner] != got[-1].get(inner, last[inner])
+    at = len(before)
+    if inner is None or list(got[:at]) != before or len(got) <= at:
+        return False
+    inside, own = got[at].get(inner, last[inner]), last[inner]
+    if len(got) == at + 1:
+        return bool(inside != own)
+    return bool(inside[: len(own)] == own and [*inside[len(own) :], *got[at + 1 :]] == list(other.actions))
