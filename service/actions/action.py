@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
-from annotated_types import Ge, Le, MaxLen, MinLen
+from annotated_types import Ge, Gt, Le, MaxLen, MinLen
 from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
@@ -89,6 +89,8 @@ class Ask:
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None
     """how far back a question about the past goes, instead of from `tick`"""
+    seconds: Annotated[float, Gt(0), Le(100_000)] | None = None
+    """the same in seconds"""
     count: Annotated[int, Ge(1), Le(1000)] | None = None
     """how many of the latest changes are meant, or how many moments are looked for"""
     how: DetailName | None = None
@@ -112,8 +114,8 @@ class Ask:
             raise ValueError("say exactly one of 'change' and 'move'")
         if self.about == "history" and self.what is not None:
             self._check_ticks(self.what)  # type: ignore[arg-type]
-        if self.tick is not None and self.ticks is not None:
-            raise ValueError("say 'tick' or 'ticks'")
+        if sum(each is not None for each in (self.tick, self.ticks, self.seconds)) > 1:
+            raise ValueError("say one of 'tick', 'ticks' and 'seconds'")
         _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))
 
     def _check_ticks(self, what: HistoryName) -> None:

@@ -120,9 +120,9 @@ class QuestionTraits:
 
 
 QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
-    "why": QuestionTraits(("move", "instead", "tick", "ticks"), runs_episodes=True),
-    "why_not": QuestionTraits(("move", "tick", "ticks"), ("move",), runs_episodes=True),
-    "what_if": QuestionTraits(("change", "move", "tick", "ticks"), runs_episodes=True),
+    "why": QuestionTraits(("move", "instead", "tick", "ticks", "seconds"), runs_episodes=True),
+    "why_not": QuestionTraits(("move", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
+    "what_if": QuestionTraits(("change", "move", "tick", "ticks", "seconds"), runs_episodes=True),
     "next": QuestionTraits(),
     "scene": QuestionTraits(("kind",)),
     "status": QuestionTraits(),
@@ -139,7 +139,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "pending": QuestionTraits(),
     "detail": QuestionTraits(("how",), ("how",), runs_episodes=True),
     "other": QuestionTraits(
-        ("what", "which", "move", "tick", "ticks"), ("what", "which"), runs_episodes=True
+        ("what", "which", "move", "tick", "ticks", "seconds"), ("what", "which"), runs_episodes=True
     ),
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
 }

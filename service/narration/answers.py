@@ -79,6 +79,10 @@ class Answers:
 def _at_its_tick(asked: Asked) -> Asked:
     """The question with the tick it is about: so many ticks ago, or that of the answer before."""
     ask, now = asked.ask, asked.timeline.tick
+    if ask.seconds is not None:
+        ago = max(1, round(ask.seconds / asked.timeline.state.config.step_seconds))
+        ask = replace(ask, seconds=None, ticks=ago)
+        asked = replace(asked, ask=ask)
     if ask.ticks is not None and ask.about != "history" and ask.ticks <= now:
         return replace(asked, ask=replace(ask, tick=now - ask.ticks, ticks=None))
     if ask.about == "what_if" and ask.move is not None and ask.tick is None:

@@ -1,4 +1,4 @@
-"""Answers about the foil that a person gives: why one move instead of another, and where it would have led."""
+"""Answers about the foil that a person gives: one move instead of another, and where that would have led."""
 
 from __future__ import annotations
 

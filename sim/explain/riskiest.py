@@ -1,4 +1,4 @@
-"""The riskiest moment of a stretch: where fewest of the ego's moves would have met nothing; then the tightest.
+"""The riskiest moment of a stretch: where fewest of the ego's moves would have met nothing, then least room.
 
 Each move of each tick is made and judged (`next_world`), with what the others did in that tick. A tick that
 ended in a crash comes first.
