@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
-from annotated_types import Ge, Le, MaxLen, MinLen
+from annotated_types import Ge, Gt, Le, MaxLen, MinLen
 from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
@@ -19,9 +19,12 @@ from service.actions.goals import Goal, Style
 from service.actions.questions import (
     HISTORY_KEYS,
     QUESTIONS,
+    WHATS,
     Choosable,
+    DetailName,
     HistoryName,
     MetricName,
+    OtherName,
     QuestionName,
     QuestionTraits,
     Term,
@@ -43,12 +46,25 @@ from service.actions.steering import (
     Ticks,
     Undo,
 )
-from sim.actions import Parameter, PlaceableKind, WorldAction
+from sim.actions import Parameter, PlaceableKind, Where, WorldAction
 from sim.types import Move
 
 Phrase = Annotated[str, MinLen(1), MaxLen(80)]
 MAX_MEANT = 50
 """How many actions a what-if or a taught phrase may hold."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Which(Where):
+    """A road user that is asked about: the nearest one of a kind at a place, or one by its id."""
+
+    kind: PlaceableKind | None = None
+
+    __pydantic_config__ = STRICT
+
+    def __post_init__(self) -> None:
+        if self.kind is None and self.id is None:
+            raise ValueError("say 'kind' or 'id'")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +74,8 @@ class Ask:
     do: Literal["ask"] = "ask"
     about: QuestionName
     move: Move | None = None
+    instead: Move | None = None
+    """the move that another one is compared with"""
     tick: Annotated[int, Ge(0)] | None = None
     change: Annotated[tuple[Action, ...], MinLen(1), MaxLen(MAX_MEANT)] | None = None
     kind: PlaceableKind | None = None
@@ -66,13 +84,17 @@ class Ask:
     value: int | float | str | None = None
     """the value that a setting is asked to have: answered by yes or no first"""
     term: Term | None = None
-    what: HistoryName | None = None
+    what: HistoryName | OtherName | None = None
     until: Annotated[int, Ge(0)] | None = None
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None
     """how far back a question about the past goes, instead of from `tick`"""
+    seconds: Annotated[float, Gt(0), Le(100_000)] | None = None
+    """the same in seconds"""
     count: Annotated[int, Ge(1), Le(1000)] | None = None
-    """how many of the latest changes are meant; 1 of the things of a kind: the nearest one"""
+    """how many of the latest changes are meant, or moments looked for; 1 of a kind of things: the nearest"""
+    how: DetailName | None = None
+    which: Which | None = None
 
     __pydantic_config__ = STRICT
 
@@ -88,8 +110,14 @@ class Ask:
             raise ValueError(f"'{self.parameter}' has options and no value")
         if self.about == "scene" and self.count is not None and (self.count != 1 or self.kind is None):
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
-        if self.what is not None:
-            self._check_ticks(self.what)
+        if self.what is not None and self.what not in WHATS[self.about]:
+            raise ValueError(f"a question about {self.about} has no '{self.what}'")
+        if self.about == "what_if" and (self.change is None) is (self.move is None):
+            raise ValueError("say exactly one of 'change' and 'move'")
+        if self.about == "history" and self.what is not None:
+            self._check_ticks(self.what)  # type: ignore[arg-type]
+        if sum(each is not None for each in (self.tick, self.ticks, self.seconds)) > 1:
+            raise ValueError("say one of 'tick', 'ticks' and 'seconds'")
         _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))
 
     def _check_ticks(self, what: HistoryName) -> None:

@@ -87,7 +87,12 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
                 begin = _past_interjection(lattice, begin, end)
             at = inside = begin
             continue
-        if at > begin and inside <= at and _begins_negation(lattice, at) and _says_something(lattice, begin, at):
+        if (
+            at > begin
+            and inside <= at
+            and _begins_negation(lattice, at)
+            and _says_something(lattice, begin, at)
+        ):
             found.append(Fragment(after, begin, at))
             after, begin = AND, at
         inside = reach

@@ -94,7 +94,11 @@ def read_of_things(language: Language, text: str, topic: Topic) -> Parse | None:
     try:
         for said in dict.fromkeys(_InFull(language, text, tokens, topic, names).sentences()):
             meant = language.read(said, topic, work, asking=False)
-            if isinstance(meant, Understood) and _all_of(kind, meant.actions) and _sure(language, text, topic, meant):
+            if (
+                isinstance(meant, Understood)
+                and _all_of(kind, meant.actions)
+                and _sure(language, text, topic, meant)
+            ):
                 return replace(meant, text=text)
     except BudgetExceededError:
         return None

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from pydantic import TypeAdapter
 
 from service import actions as contract
-from service.actions import Action, Chat, Drop, Redo, Undo
+from service.actions import Action, Ask, Chat, Drop, Redo, Undo
 from service.actions.table import traits_of
 from service.grammar.topic import Phrases, Topic
 from service.sessions.facts import (
@@ -28,7 +28,7 @@ from service.sessions.facts import (
     performed_actions,
     spread_facts,
 )
-from service.sessions.referred import changes_number, named, options_told, tick_told
+from service.sessions.referred import changes_number, explained, named, options_told, tick_told
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import (
     Add,
@@ -66,6 +66,7 @@ class Conversation:
         self._latest_steps: tuple[int, ...] = ()
         """steps of undo of the latest two changes"""
         self._tick: int | None = None
+        self._explained: Ask | None = None
         self._offered: tuple[Action, ...] = ()
         self._away: tuple[int, ...] = ()
         """how many things each of them took off the road or moved"""
@@ -86,6 +87,11 @@ class Conversation:
         self._episode: Episode | None = None
         self._durable: Conversation | None = None
         """the memory without unstored talk, where that differs"""
+
+    @property
+    def explained(self) -> Ask | None:
+        """The question that was answered last, with the tick that its answer is about."""
+        return self._explained
 
     @property
     def durable(self) -> Conversation:
@@ -121,13 +127,17 @@ class Conversation:
         amounts = [fact for fact in facts if isinstance(fact, Applied) and _moves_things(fact)]
         if amounts:
             self._before = self._things
-            self._things = self._taken = ()  # "them" are all that the utterance added, not what its last part did
+            self._things = (
+                self._taken
+            ) = ()  # "them" are all that the utterance added, not what its last part did
             if any(fact.added for fact in amounts):
                 self._listed = ()
         elif any(isinstance(fact, Applied) and changes_number(fact.action) for fact in facts):
             self._kind = None  # "one more" is one more lane
         for fact in amounts:
             self._record_change(fact)
+        if outcome.answer is not None or any(not isinstance(fact, Answerable) for fact in facts):
+            self._explained = None if outcome.answer is None else explained(outcome.answer, actions)
         self._tick = None if outcome.answer is None else tick_told(outcome.answer, actions)
         self._offered = () if outcome.answer is None else options_told(outcome.answer, actions)
         if outcome.answer is not None:
