@@ -6,7 +6,7 @@ Grammar, language model, voice and typed REST calls all produce an `Action`. Act
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
@@ -19,9 +19,14 @@ from service.actions.goals import Goal, Style
 from service.actions.questions import (
     HISTORY_KEYS,
     QUESTIONS,
+    WHAT_KEYS,
+    WHATS,
+    BlameName,
     Choosable,
     HistoryName,
     MetricName,
+    OutlookName,
+    PlannersName,
     QuestionName,
     QuestionTraits,
     Term,
@@ -44,11 +49,14 @@ from service.actions.steering import (
     Undo,
 )
 from sim.actions import Parameter, PlaceableKind, WorldAction
+from sim.planner_names import PlannerName
 from sim.types import Move
 
 Phrase = Annotated[str, MinLen(1), MaxLen(80)]
 MAX_MEANT = 50
 """How many actions a what-if or a taught phrase may hold."""
+MAX_PLANNERS = 8
+"""How many planners one question may name."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,13 +74,16 @@ class Ask:
     value: int | float | str | None = None
     """the value that a setting is asked to have: answered by yes or no first"""
     term: Term | None = None
-    what: HistoryName | None = None
+    what: HistoryName | OutlookName | BlameName | PlannersName | None = None
     until: Annotated[int, Ge(0)] | None = None
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None
     """how far back a question about the past goes, instead of from `tick`"""
     count: Annotated[int, Ge(1), Le(1000)] | None = None
     """how many of the latest changes are meant"""
+    planners: Annotated[tuple[PlannerName, ...], MinLen(1), MaxLen(MAX_PLANNERS)] | None = None
+    """the planners that are asked about, where not all of them"""
+    planner: PlannerName | None = None
 
     __pydantic_config__ = STRICT
 
@@ -87,14 +98,19 @@ class Ask:
         if self.about == "setting" and self.parameter in get_args(Choosable):
             raise ValueError(f"'{self.parameter}' has options and no value")
         if self.what is not None:
-            self._check_ticks(self.what)
+            self._check_what(self.what)
         _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))
 
-    def _check_ticks(self, what: HistoryName) -> None:
-        """Raise `ValueError` unless the ticks are named that a question about the past needs."""
-        named = frozenset(key for key in ("tick", "until", "ticks") if getattr(self, key) is not None)
-        if named not in HISTORY_KEYS[what]:
-            ways = " or ".join(" and ".join(sorted(keys)) or "no tick" for keys in HISTORY_KEYS[what])
+    def _check_what(self, what: str) -> None:
+        """Raise `ValueError` unless `what` belongs to the question and all is named that it needs."""
+        if what not in WHATS[self.about]:
+            raise ValueError(f"'{what}' does not belong to a question about {self.about}")
+        keys: Mapping[str, tuple[frozenset[str], ...]] = (
+            HISTORY_KEYS if self.about == "history" else WHAT_KEYS
+        )
+        named = frozenset(key for key in _BESIDE_WHAT if getattr(self, key) is not None)
+        if named not in keys[what]:
+            ways = " or ".join(" and ".join(sorted(each)) or "nothing more" for each in keys[what])
             raise ValueError(f"a question about {what} names {ways}")
         if self.tick is not None and self.until is not None and self.until < self.tick:
             raise ValueError("a stretch of ticks ends after it begins")
@@ -102,6 +118,8 @@ class Ask:
 
 _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "about"))
 """All that a question may name."""
+_BESIDE_WHAT = ("move", "tick", "until", "ticks", "planners", "planner")
+"""Keys that some values of `what` need, and others must not have."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
