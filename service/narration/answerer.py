@@ -43,7 +43,9 @@ def question(sayings: Sayings, ask: Ask) -> str:
     if key in ("scene", "metrics") and (ask.kind or ask.metric):
         key += "_one"
     if ask.what is not None:
-        key = f"history_{ask.what}"
+        key = f"{ask.about}_{ask.what}"
+        if ask.planner is not None:
+            key += "_of"
     elif ask.tick is not None:
         key += "_at"
     if ask.about == "options" and ask.parameter:
@@ -62,6 +64,7 @@ def question(sayings: Sayings, ask: Ask) -> str:
         metric=metric,
         setting=named,
         until=ask.until,
+        planner="" if ask.planner is None else sayings.planner(ask.planner),
         term="" if ask.term is None else sayings.say("glossary", "names", ask.term),
     )
 

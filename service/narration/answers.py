@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from service.narration.advice import Advices
+from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json
+from service.narration.blame import Blames
 from service.narration.confidence import Confidences
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
@@ -11,6 +13,7 @@ from service.narration.history import History
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.next import Next
+from service.narration.planners import Planners
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.settings import Settings
@@ -46,6 +49,9 @@ class Answers:
             "term": Glossary(sayings),
             "history": History(sayings),
             "styles": Styles(sayings),
+            "outlook": Outlooks(sayings),
+            "blame": Blames(sayings),
+            "planners": Planners(sayings),
         }
 
     def answer(self, asked: Answerable) -> Json:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from sim.planner_names import canonical
 
@@ -31,13 +31,21 @@ class Character:
     """mean seconds that an arrival took more than the quickest way"""
 
 
-@cache
 def characters() -> dict[str, Character]:
     """The figures of all planners that were counted, by name."""
-    found = json.loads(FILE.read_text(encoding="utf-8"))["planners"]
-    return {planner: Character(planner, **figures) for planner, figures in found.items()}
+    return {planner: Character(planner, **figures) for planner, figures in _read()["planners"].items()}
+
+
+def command() -> str:
+    """The command that made the figures."""
+    return str(_read()["command"])
 
 
 def character_of(planner: str) -> Character | None:
     """The figures of a planner; None where it was not counted."""
     return characters().get(canonical(planner))
+
+
+@cache
+def _read() -> Any:
+    return json.loads(FILE.read_text(encoding="utf-8"))

@@ -52,6 +52,12 @@ class PlannersHere:
         """All of them, the best first: by the chance to arrive, that of no crash, and the ticks it takes."""
         return tuple(sorted((self.own, *self.others), key=_rank))
 
+    @property
+    def best(self) -> tuple[PlannerDrive, ...]:
+        """Those that nobody is better than."""
+        ranked = self.ranked
+        return tuple(each for each in ranked if _rank(each) == _rank(ranked[0]))
+
 
 def planners_here(
     timeline: Timeline,
