@@ -60,6 +60,7 @@ class Advices:
         distances = {Choice.STEER: distance_steered, Choice.BRAKE_AND_STEER: distance_both}
         distance = distance_most if key == "brake_stops" else distances.get(advice.choice, distance)
         parts = {
+            "brake": self._say("braking", "gently" if brake.sure else "hard"),
             "it": self._say("hazards", advice.hazard, "the"),
             "speed": self._speed(advice),
             "distance": distance,
@@ -86,7 +87,7 @@ class Advices:
         if chosen.choice is Choice.BRAKE and _late(advice):
             return "brake_late"
         stops = chosen.choice is Choice.BRAKE and chosen.ending is Ending.STOPS
-        if stops and advice.figures.stopping_most_m <= advice.distance_m:
+        if stops and chosen.sure and advice.figures.stopping_most_m <= advice.distance_m:
             return "brake_stops"
         if CLOSE[0] < chosen.chance < CLOSE[1]:
             return f"{chosen.choice}_close"
