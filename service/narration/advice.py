@@ -60,7 +60,7 @@ class Advices:
         distances = {Choice.STEER: distance_steered, Choice.BRAKE_AND_STEER: distance_both}
         distance = distance_most if key == "brake_stops" else distances.get(advice.choice, distance)
         parts = {
-            "brake": self._say("braking", "gently" if brake.sure else "hard"),
+            "brake": self._say("braking", "hard" if firmness(advice) > 1 else "gently"),
             "it": self._say("hazards", advice.hazard, "the"),
             "speed": self._speed(advice),
             "distance": distance,
@@ -155,6 +155,13 @@ class Advices:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("advice", *keys, **parts)
+
+
+def firmness(advice: Advice) -> int:
+    """How much is asked of the driver: 0 keep going, 1 brake, 2 brake hard or steer, or both."""
+    if advice.choice is Choice.KEEP:
+        return 0
+    return 1 if advice.choice is Choice.BRAKE and advice.chosen.sure else 2
 
 
 def _late(advice: Advice) -> bool:

@@ -48,9 +48,9 @@ def _best(hazard: Kind, found: tuple[Prospect, ...]) -> Prospect:
     """Keeps on where that is safe by the speed alone, brakes where that is sure; else does the least harm.
 
     Braking is sure in a region that only shrinks with less room or more speed, so that the advice never
-    becomes gentler there. Chances count in whole hundredths, so that the chance that is stated never falls with more room or less
-    speed merely because a gentler choice was taken. Among equals the least speed of harm counts, then the
-    effort.
+    becomes gentler there. Chances count in whole hundredths, so that the chance that is stated never falls
+    with more room or less speed merely because a gentler choice was taken. Among equals the least speed of
+    harm counts, then the effort.
     """
     keep, *others = found
     if hazard is Kind.POTHOLE and keep.chance >= SURE_OF_KEEPING:
