@@ -24,7 +24,7 @@
     │   ├── NotTeachable                 a phrase that cannot be taught, or forgotten
     │   ├── IdempotencyKeyReused         an idempotency key that was another request's
     │   └── RecordingMismatch            replayed to another digest than it says
-    ├── TooManySessions             429  the limit of live sessions is reached
+    ├── TooManySessions             429  the limit of live sessions is reached: `Retry-After`
     ├── RateLimited                 429  a client asks too often: `Retry-After`
     ├── QuotaExceeded               429  a client has as much as it may have
     ├── Internal                    500  a defect here; says nothing of its inside
@@ -253,6 +253,14 @@ class TooManySessions(ProblemError):
     """The limit of live sessions is reached."""
 
     status, slug, title = 429, "too-many-sessions", "Too many sessions"
+
+    def __init__(self, most: int, wait_s: int) -> None:
+        """`wait_s`: seconds until one of them may leave memory."""
+        super().__init__(
+            f"{most} sessions are live and in use, which is the limit here. Pause or delete one, or try again "
+            f"in {wait_s} s. The setting is ROADTALK_MAX_SESSIONS.",
+            headers={"Retry-After": str(wait_s)},
+        )
 
 
 class RateLimited(ProblemError):

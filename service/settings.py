@@ -29,7 +29,9 @@ class Settings(BaseSettings):
         description="Where sessions are kept: `sqlite:///<file>`, `postgresql://<host>/<name>` or `memory:`.",
     )
     max_sessions: int = Field(
-        default=1_000, ge=1, description="Maximum number of live sessions. Further ones are refused."
+        default=1_000,
+        ge=1,
+        description="Maximum number of live sessions. Idle ones make room for others; without any, others wait.",
     )
     max_text_chars: int = Field(
         default=500, ge=1, le=10_000, description="Maximum length of one utterance, in characters."
