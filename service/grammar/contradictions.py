@@ -175,9 +175,7 @@ def _none_of(clauses: Sequence[Clause]) -> Contradiction | None:
         if any(edge.concept in adding and edge.concept.startswith("v.") for edge in before.filled.slots):
             continue
         said = [action for each in clauses for action in each.actions]
-        kinds = dict.fromkeys(
-            edge.sense.value.of for edge in clause.filled.slots if edge.concept == _NONE
-        )
+        kinds = dict.fromkeys(edge.sense.value.of for edge in clause.filled.slots if edge.concept == _NONE)
         if not kinds:  # "and keep the cones"
             continue
         none = [{"do": "set_count", "kind": kind, "count": 0} for kind in kinds]

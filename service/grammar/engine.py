@@ -117,7 +117,7 @@ class Language:
         lattice = self._scanner.scan(tokens, kept)
         resolve_lanes_from_right(lattice, topic)
         add_old_values(lattice)
-        withhold(lattice, self.data.free)
+        withhold(lattice, self.data.free, self.data.idle)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)
         uncovered = bool(lattice.uncovered())

@@ -15,6 +15,7 @@ from service.grammar.paths import SEPARATOR
 PAUSE = "pause"
 STOP = "stop"
 THEN = "then"
+AND = "and"
 OR = "or"
 AND = "and"
 BEGINS_NEGATION = "negation.begins"
@@ -38,6 +39,9 @@ REPEATED = "repeated"
 """What was done before, said again: "again"."""
 DROP = "drop"
 """What drops a question: its words may say nothing one by one."""
+_ASKED_ABOUT = "q.thing"
+"""Words that a question about a decision passes over: "back then"."""
+_LOOSE = (GLUE, _ASKED_ABOUT)
 _WHOLE_REQUESTS = (REPEATED, DROP)
 """Phrases that are requests though their words may be glue."""
 
@@ -65,7 +69,7 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             if stop > end or concept == INTERJECTION:
                 continue
             if concept != SEPARATOR:
-                if concept == GLUE and at > begin and _passes_on(lattice, at, stop, end):
+                if concept in _LOOSE and at > begin and _passes_on(lattice, at, stop, end):
                     continue
                 reach = max(reach, stop)
             elif separator is None or stop > separator.end:
@@ -76,11 +80,19 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             if _says_something(lattice, begin, at):
                 found.append(Fragment(after, begin, at))
                 after = str(separator.sense.value)
-            elif str(separator.sense.value) not in _MARKS:
+            elif str(separator.sense.value) not in _MARKS and after != OR:
                 after = str(separator.sense.value)
-            at = begin = inside = separator.end
+            begin = separator.end
+            if separator.sense.value == STOP:
+                begin = _past_interjection(lattice, begin, end)
+            at = inside = begin
             continue
-        if at > begin and inside <= at and _begins_negation(lattice, at) and _says_something(lattice, begin, at):
+        if (
+            at > begin
+            and inside <= at
+            and _begins_negation(lattice, at)
+            and _says_something(lattice, begin, at)
+        ):
             found.append(Fragment(after, begin, at))
             after, begin = AND, at
         inside = reach

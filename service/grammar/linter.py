@@ -28,7 +28,23 @@ ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
     | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
     | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
-    | {"refers", "taught", "repeated", "repair", "contrast", "order", "chat", "chat_filler", FROM_RIGHT, BEGINS_NEGATION, FROM, OLD_VALUE, TIME}
+    | {
+        "refers",
+        "taught",
+        "repeated",
+        "repair",
+        "contrast",
+        "order",
+        "chat",
+        "chat_filler",
+        "detail",
+        "spoken_tick",
+        FROM_RIGHT,
+        BEGINS_NEGATION,
+        FROM,
+        OLD_VALUE,
+        TIME,
+    }
     | POINTING
     | MARKERS
 )
