@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from service.actions import Action
+from service.actions import Action, Ask
 from service.actions.table import traits_of
 from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO, TOTAL
 from service.grammar.engine import Language
@@ -21,13 +21,14 @@ from service.grammar.listed_options import choose_listed
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
+from service.grammar.same_request import to_other_things
 from service.grammar.sentences import Unsayable
 from service.grammar.setting_talk import read_of_setting
 from service.grammar.short_talk import read_short
-from service.grammar.same_request import to_other_things
-from service.grammar.thing_talk import read_asked, read_of_things
+from service.grammar.thing_talk import kinds_of, read_asked, read_of_things
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
+from service.grammar.unclear_it import ask_whether, ask_which_it
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, SetCount
 
@@ -55,8 +56,19 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
             return of_setting
     if alone and (said := read_short(language, text, topic) or read_asked(language, text, topic)):
         return said
+    if isinstance(parsed, Understood) and (unclear := ask_which_it(language, text, topic, parsed)):
+        return unclear
+    meant = _after_last(language, text, topic, parsed, alone=alone)
+    if isinstance(meant, Understood) and meant.actions == getattr(parsed, "actions", None):
+        return ask_whether(language, text, topic, meant) or meant
+    return meant
+
+
+def _after_last(language: Language, text: str, topic: Topic, parsed: Parse, *, alone: bool) -> Parse:
+    """What a sentence means after the last request; `alone`: it means nothing by itself."""
     if not topic.actions or topic.undone:
-        return _completed(language, text, topic, parsed)
+        of_things = read_of_things(language, text, topic) if alone else None
+        return of_things or _completed(language, text, topic, parsed)
     if isinstance(parsed, Understood) and _takes_the_place(language, text, topic, parsed):
         return replace(parsed, actions=done_anew(topic, parsed.actions))
     if isinstance(parsed, Understood | Refused) and (
@@ -68,14 +80,15 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     tokens = tokenise(normalise(text), language.data.contractions)
     if len(tokens) > MAX_WORDS:
         return parsed
-    leaning = _Leaning(language, text, tokens, topic)
+    leaning = _Leaning(language, text, tokens, _about_the_change(text, topic))
     try:
         found = leaning.read()
     except BudgetExceededError:
         return parsed
     if alone:
-        of_things = None if leaning.corrects else read_of_things(language, text, topic)
-        return found or of_things or _completed(language, text, topic, parsed)
+        if found is None:
+            found = read_of_things(language, text, topic, counted=leaning.corrects)
+        return found or _completed(language, text, topic, parsed)
     assert isinstance(parsed, Understood)
     return _after_question(language, leaning, found, parsed)
 
@@ -84,6 +97,19 @@ def _completed(language: Language, text: str, topic: Topic, parsed: Parse) -> Pa
     """The question about what a request lacks; else what it means by itself."""
     lacking = isinstance(parsed, Refused) and parsed.reason in ("not_understood", "negation")
     return (ask_what_is_missing(language, text, topic) if lacking else None) or parsed
+
+
+def _about_the_change(text: str, topic: Topic) -> Topic:
+    """The topic as it was before a question about the things that were changed last.
+
+    "And one in lane 4" after "how many potholes are there?" goes on with what added them; "and left?" asks.
+    """
+    asked = all(isinstance(action, Ask) and action.about == "scene" for action in topic.actions)
+    if not asked or not topic.changed_steps or text.rstrip().endswith("?"):
+        return topic
+    if kinds_of(topic.actions) != kinds_of(topic.changed):
+        return topic
+    return replace(topic, actions=topic.changed, steps=topic.changed_steps, said="")
 
 
 def _asks(parsed: Parse) -> bool:

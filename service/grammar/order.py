@@ -39,6 +39,14 @@ def orders(clauses: Sequence[Clause], lattice: Lattice) -> list[list[Clause]]:
     return [said]
 
 
+def leans_back(clauses: Sequence[Clause], lattice: Lattice) -> bool:
+    """Whether a sentence of one request puts it before something that was done already: "reset before that"."""
+    if ORDER not in lattice.concepts or len(clauses) != 1:
+        return False
+    word = _word(clauses[0], lattice)
+    return word is not None and word.sense.value == BEFOREHAND
+
+
 def _word(clause: Clause, lattice: Lattice) -> Edge | None:
     """The word of order in a clause that no part of the request is made of."""
     slots = [(edge.start, edge.end) for edge in clause.filled.slots]

@@ -22,7 +22,7 @@ from service.grammar.fragments import Fragment, fragments
 from service.grammar.lattice import GLUE, Lattice
 from service.grammar.matching import Frames
 from service.grammar.noun_phrases import QUANTITY, Amount, add_noun_phrases
-from service.grammar.order import orders
+from service.grammar.order import leans_back, orders
 from service.grammar.parse_types import (
     Ambiguous,
     Choice,
@@ -154,6 +154,8 @@ class Reading:
         )
         if question is not None:
             return self._ask(question) if asking else self._refuse([self._plain], ())
+        if leans_back(clauses, self._lattice):
+            return self._refuse([self._plain], ())
         clauses, *otherwise = orders(clauses, self._lattice)
         if (unsure := next((clause for clause in clauses if clause.instead), None)) is not None:
             return self._together_or_apart(clauses, unsure, asking=asking)

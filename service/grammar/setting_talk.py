@@ -109,7 +109,11 @@ def _in_full(
         if end > at:
             before = plain[rest[0].start : rest[at].start]
             after = plain[rest[end - 1].end : rest[-1].end]
-            for named in (*_value_names(language, spoken_of), name, answers.setting_named.format(setting=name)):
+            for named in (
+                *_value_names(language, spoken_of),
+                name,
+                answers.setting_named.format(setting=name),
+            ):
                 yield f"{before}{named}{after}"
     asked = isinstance(topic.actions[0], Ask) or text.rstrip().endswith("?")
     if start and asked and answers.setting_asked:

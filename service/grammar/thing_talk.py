@@ -23,6 +23,7 @@ from service.grammar.answer_words import (
 from service.grammar.engine import Language
 from service.grammar.lattice import GLUE, Lattice
 from service.grammar.parse_types import Parse, Understood
+from service.grammar.references import REFERS
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
@@ -81,8 +82,11 @@ def _tokens(language: Language, text: str) -> Sequence[Token]:
     return tokens
 
 
-def read_of_things(language: Language, text: str, topic: Topic) -> Parse | None:
-    """What a sentence says of the kind of thing spoken of last; None where it says nothing of it."""
+def read_of_things(language: Language, text: str, topic: Topic, *, counted: bool = False) -> Parse | None:
+    """What a sentence says of the kind of thing spoken of last; None where it says nothing of it.
+
+    `counted`: only how many there shall be, for sentences that begin as a correction.
+    """
     kind = kind_spoken_of(topic)
     names = language.sentences.names(kind) if kind is not None else {}
     if kind is None or not names:
@@ -92,9 +96,14 @@ def read_of_things(language: Language, text: str, topic: Topic) -> Parse | None:
         return None
     work = WorkBudget()
     try:
-        for said in dict.fromkeys(_InFull(language, text, tokens, topic, names).sentences()):
+        full = _InFull(language, text, tokens, topic, names)
+        for said in dict.fromkeys(full.counted() if counted else full.sentences()):
             meant = language.read(said, topic, work, asking=False)
-            if isinstance(meant, Understood) and _all_of(kind, meant.actions) and _sure(language, text, topic, meant):
+            if (
+                isinstance(meant, Understood)
+                and _all_of(kind, meant.actions)
+                and _sure(language, text, topic, meant)
+            ):
                 return replace(meant, text=text)
     except BudgetExceededError:
         return None
@@ -140,14 +149,18 @@ class _InFull:
 
     def sentences(self) -> Iterator[str]:
         """The sentences in full, in the order in which they are tried."""
-        counted = self._answers.meant(self._tokens, COUNTED, self._numbers)
-        if counted is not None:
-            ((form, count),) = counted.items()
-            yield str(self._answers.counted_things[form]).format(count=count, **self._names)
+        yield from self.counted()
         yield from self._of_them(self._tokens)
         yield from self._with_noun(self._tokens)
         if self._answers.ending(self._tokens, ENDING_NOUN):
             yield self._joined(self._tokens, len(self._tokens), len(self._tokens), self._names["one"])
+
+    def counted(self) -> Iterator[str]:
+        """How many there shall be: "set it to four"."""
+        counted = self._answers.meant(self._tokens, COUNTED, self._numbers)
+        if counted is not None:
+            ((form, count),) = counted.items()
+            yield str(self._answers.counted_things[form]).format(count=count, **self._names)
 
     def _of_them(self, tokens: Sequence[Token]) -> Iterator[str]:
         """ "Half of them", "two of them": of all things of the kind, where these are all there are."""
@@ -163,7 +176,8 @@ class _InFull:
         scan = self._language.scan(tokens)
         for at in range(len(tokens)):
             end, nouns = self._answers.longest(tokens, at, NOUN)
-            for noun in nouns if end > at and not _in_phrase(scan, at, end) else ():
+            refers = any(edge.start < end and at < edge.end for edge in scan.all() if edge.concept == REFERS)
+            for noun in nouns if end > at and not refers else ():
                 yield self._joined(tokens, at, end, str(noun).format(**self._names))
         for at in range(len(tokens)):
             found = self._language.data.numbers.read(tokens, at)

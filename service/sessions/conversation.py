@@ -121,7 +121,9 @@ class Conversation:
         amounts = [fact for fact in facts if isinstance(fact, Applied) and _moves_things(fact)]
         if amounts:
             self._before = self._things
-            self._things = self._taken = ()  # "them" are all that the utterance added, not what its last part did
+            self._things = (
+                self._taken
+            ) = ()  # "them" are all that the utterance added, not what its last part did
             if any(fact.added for fact in amounts):
                 self._listed = ()
         elif any(isinstance(fact, Applied) and changes_number(fact.action) for fact in facts):
