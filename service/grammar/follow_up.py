@@ -11,16 +11,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from service.actions import Action, Ask
+from service.actions import Action, Advise, Ask
 from service.actions.table import traits_of
-from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO, TOTAL
+from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, PREFACE, TOO, TOTAL
 from service.grammar.engine import Language
 from service.grammar.incomplete import ask_elsewhere, ask_what_is_missing
 from service.grammar.last_request import asked_anew
 from service.grammar.listed_options import choose_listed
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import about_the_same
-from service.grammar.said_before import can_be_corrected, done_anew, said_before
+from service.grammar.said_before import can_be_corrected, done_anew, said_before, shape
 from service.grammar.same_request import to_other_things
 from service.grammar.sentences import Unsayable
 from service.grammar.setting_talk import read_of_setting
@@ -54,6 +54,8 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
         of_setting = read_of_setting(language, text, topic, parsed)
         if of_setting is not None:
             return of_setting
+    if alone and (after := _after_preface(language, text, topic)) is not None:
+        return after
     if alone and (said := read_short(language, text, topic) or read_asked(language, text, topic)):
         return said
     if isinstance(parsed, Understood) and (unclear := ask_which_it(language, text, topic, parsed)):
@@ -99,6 +101,25 @@ def _completed(language: Language, text: str, topic: Topic, parsed: Parse) -> Pa
     return (ask_what_is_missing(language, text, topic) if lacking else None) or parsed
 
 
+def _after_preface(language: Language, text: str, topic: Topic) -> Parse | None:
+    """What a request means before which its reason is said: "too many, remove half of them"."""
+    answers = language.data.answers
+    tokens = tokenise(normalise(text), language.data.contractions)
+    end, excluded = answers.longest(tokens, 0, PREFACE)
+    while 0 < end < len(tokens) and not any(char.isalnum() for char in tokens[end].text):
+        end += 1
+    if not 0 < end < len(tokens):
+        return None
+    rest = normalise(text)[tokens[end].start :]
+    parsed = read_in_conversation(language, rest, topic, language.parse(rest, topic))
+    if isinstance(parsed, Refused):
+        return None
+    if isinstance(parsed, Understood):
+        fits = all(action.do != excluded for action in parsed.actions)
+        return replace(parsed, text=text) if fits else None
+    return replace(parsed, text=text)
+
+
 def _about_the_change(text: str, topic: Topic) -> Topic:
     """The topic as it was before a question about the things that were changed last.
 
@@ -135,6 +156,8 @@ def _after_question(language: Language, leaning: _Leaning, found: Parse | None, 
     "And left?" asks; "and left" may be either, so it is asked about. One that asks what cannot be found out
     is refused: it must not act.
     """
+    if leaning.goes_on and (meant := _of_advice(leaning.done, alone)) is not None:
+        return meant
     if not leaning.goes_on or all(traits_of(action).is_question for action in alone.actions):
         return alone if found is None or not leaning.goes_on else found
     if found is None:
@@ -145,6 +168,14 @@ def _after_question(language: Language, leaning: _Leaning, found: Parse | None, 
         counted = any(isinstance(action, Add) and action.count > 1 for action in alone.actions)
         return leaning.refusal(alone.text) if asks and leaning.short and not counted else alone
     return found if asks else _which(language, alone.text, found, alone)
+
+
+def _of_advice(done: Actions, alone: Understood) -> Parse | None:
+    """The last advice for another hazard: "what if it is a pedestrian?"."""
+    if len(done) != 1 or not isinstance(done[0], Advise) or any(isinstance(a, Advise) for a in alone.actions):
+        return None
+    meant = asked_anew(done, alone.actions)
+    return None if meant is None else Understood(alone.text, meant)
 
 
 def _which(language: Language, text: str, found: Parse, alone: Understood) -> Parse:
@@ -211,7 +242,7 @@ class _Leaning:
         base = said_before(self._language, self._topic, self._work)
         if base is None or not all(traits_of(action).amendable for action in done):
             return None
-        if (other := to_other_things(self._language, self._written(rest), self._spoken_of, done)) is not None:
+        if (other := to_other_things(self._language, self._written(rest), self._spoken_of, done, self._answers.one_after)) is not None:
             return Understood(self._text, self._whole(other, correcting))
         meant = self._amended(base, done, rest, goes_on=not correcting)
         meant = meant or self._elsewhere(done, rest)
@@ -319,13 +350,6 @@ class _Leaning:
 def _anywhere(actions: Sequence[Any]) -> Actions:
     """The actions without their places."""
     return tuple(replace(action, where=None) for action in actions)
-
-
-def shape(actions: Sequence[Action]) -> list[object]:
-    """What kinds of request some actions are."""
-    return [
-        (action.do, getattr(action, "about", None), getattr(action, "parameter", None)) for action in actions
-    ]
 
 
 def _without_marks(tokens: Sequence[Token]) -> Sequence[Token]:

@@ -79,7 +79,12 @@ def _about_settings(actions: Sequence[Action], *, explained: bool) -> bool:
         return all(isinstance(action, Ask) and action.about in ("term", "setting") for action in actions)
     return all(
         isinstance(action, Set | Adjust)
-        or (isinstance(action, Ask) and action.about in ("setting", "term", "options"))
+        or (
+            isinstance(action, Ask)
+            and action.about == "what_if"
+            and all(isinstance(each, Set | Adjust) for each in action.change or ())
+        )
+        or (isinstance(action, Ask) and action.about in ("setting", "term", "options", "changes"))
         for action in actions
     )
 

@@ -111,10 +111,16 @@ def read_of_things(language: Language, text: str, topic: Topic, *, counted: bool
 
 
 def _sure(language: Language, text: str, topic: Topic, meant: Understood) -> bool:
-    """Whether things are added only by a verb, or after others were: "two in lane 4" says nothing else."""
+    """Whether things are added only at a place, and by a verb or after others were.
+
+    "Add one in lane 5" is another of them; "add three" may be three of anything.
+    """
     adds = any(isinstance(action, Add) for action in meant.actions)
+    if not adds:
+        return True
+    placed = all(getattr(action, "where", None) is not None for action in meant.actions)
     verb = any(concept.startswith("v.") for concept in language.concepts(text))
-    return not adds or verb or all(isinstance(action, Add | SetCount) for action in topic.actions)
+    return placed and (verb or all(isinstance(action, Add | SetCount) for action in topic.actions))
 
 
 def _all_of(kind: str, actions: Sequence[Action]) -> bool:
