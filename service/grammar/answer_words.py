@@ -80,6 +80,9 @@ MORE_TICKS = "more_ticks"
 STILL = "still"
 """Concept of endings that a comparison may have: "a bit harder still"."""
 
+GOING_ON = "going_on"
+"""Concept of words by which a change goes on with the last one: "still"."""
+
 MUCH_MORE = "much_more"
 """Concept of what does the last request again, to a degree: "a bit more"; `{again: degree}` or `{turned: ...}`."""
 

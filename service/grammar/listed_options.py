@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from service.grammar.answer_words import BEFORE, CHOOSES, CORRECTS, LAST
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Understood
+from service.grammar.said_before import done_anew
 from service.grammar.sentences import Unsayable
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
@@ -34,6 +35,8 @@ def choose_listed(language: Language, text: str, topic: Topic) -> Parse | None:
     if not isinstance(place, int) or not 1 <= place <= len(topic.offered):
         return None
     actions = (topic.offered[place - 1],)
+    if corrects and topic.steps and topic.actions and not topic.undone:
+        return Understood(text, done_anew(topic, actions))
     if start or not text.rstrip().endswith("?"):
         return Understood(text, actions)
     try:

@@ -14,6 +14,7 @@ from service.actions.table import traits_of
 from service.grammar.answer_words import (
     ASKS_AGAIN,
     FOLLOWS,
+    GOING_ON,
     MORE_TICKS,
     MUCH_MORE,
     STILL,
@@ -136,6 +137,17 @@ def _still(language: Language, text: str, tokens: Sequence[Token], topic: Topic)
     if len(readings) != 1 or not all(isinstance(action, Goal | Adjust) for action in readings[0].actions):
         return None
     return Understood(text, readings[0].actions)
+
+
+def pick_going_on(language: Language, text: str, topic: Topic, parsed: Parse) -> Parse | None:
+    """The reading that goes on with the last change where a sentence has several: "a bit slower still"."""
+    tokens = without_marks(tokenise(normalise(text), language.data.contractions))
+    answers = language.data.answers
+    goes_on = answers.ending(tokens, GOING_ON) or answers.beginning(tokens, GOING_ON)
+    if not isinstance(parsed, Ambiguous) or not goes_on or topic.undone:
+        return None
+    fits = [each for each in parsed.choices if shape(each.actions) == shape(topic.actions)]
+    return Understood(text, fits[0].actions) if len(fits) == 1 else None
 
 
 def _continued(language: Language, text: str, tokens: Sequence[Token], topic: Topic) -> Parse | None:

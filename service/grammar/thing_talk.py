@@ -22,12 +22,16 @@ from service.grammar.answer_words import (
 )
 from service.grammar.engine import Language
 from service.grammar.lattice import GLUE, Lattice
+from service.grammar.noun_phrases import QUANTITY
 from service.grammar.parse_types import Parse, Understood
 from service.grammar.references import REFERS
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, Replace, SetCount
+
+_MORE = ("more", "another")
+"""Values of the quantities that add to what is there."""
 
 MAX_WORDS = 14
 """Longer sentences name what they are about."""
@@ -118,6 +122,9 @@ def _sure(language: Language, text: str, topic: Topic, meant: Understood) -> boo
     adds = any(isinstance(action, Add) for action in meant.actions)
     if not adds:
         return True
+    scan = language.scan(_tokens(language, text))
+    if any(edge.concept == QUANTITY and edge.sense.value in _MORE for edge in scan.all()):
+        return True
     placed = all(getattr(action, "where", None) is not None for action in meant.actions)
     verb = any(concept.startswith("v.") for concept in language.concepts(text))
     return placed and (verb or all(isinstance(action, Add | SetCount) for action in topic.actions))
@@ -170,7 +177,7 @@ class _InFull:
 
     def _of_them(self, tokens: Sequence[Token]) -> Iterator[str]:
         """ "Half of them", "two of them": of all things of the kind, where these are all there are."""
-        if self._topic.others or len(self._topic.things) < 2:
+        if self._topic.things and (self._topic.others or len(self._topic.things) < 2):
             return
         for at in range(1, len(tokens)):
             end, template = self._answers.longest(tokens, at, OF_THEM)

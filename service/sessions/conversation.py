@@ -137,7 +137,14 @@ class Conversation:
         for fact in amounts:
             self._record_change(fact)
         self._tick = None if outcome.answer is None else tick_told(outcome.answer, actions)
-        self._offered = () if outcome.answer is None else options_told(outcome.answer, actions)
+        chosen = outcome.answer is None and outcome.utterance.actions[0] in self._offered
+        self._offered = (
+            self._offered
+            if chosen
+            else ()
+            if outcome.answer is None
+            else options_told(outcome.answer, actions)
+        )
         if outcome.answer is not None:
             self._record_answer(outcome.answer, facts)
 
@@ -208,6 +215,9 @@ class Conversation:
         told = tuple(cause["id"] for cause in answer.get("causes", ()) if cause.get("id"))
         seen = tuple(thing["id"] for thing in answer.get("seen", ()))
         asked = [fact for fact in facts if isinstance(fact, Asked)]
+        if asked and seen and asked[-1].ask.count == 1 and seen[0] in self._listed:
+            self._before, self._things = self._things, seen  # one of those that were told before
+            return
         if not asked or not (told or seen):
             return
         self._set_episode(asked[-1].timeline.state.world)
