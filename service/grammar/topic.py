@@ -87,6 +87,8 @@ class Topic:
     phrases: Phrases = field(default_factory=Phrases)
     names: frozenset[str] = frozenset()
     """of moments that were saved, in small letters: "go back to monday" is one of them, or something else"""
+    columns: int = 8
+    """how many lanes the road has: "the two right lanes" """
 
 
 ALONE = Topic()

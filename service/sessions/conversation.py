@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from pydantic import TypeAdapter
 
 from service import actions as contract
-from service.actions import Action, Chat, Drop, Redo, Undo
+from service.actions import Action, Ask, Chat, Drop, Redo, Undo
 from service.actions.table import traits_of
 from service.grammar.topic import Phrases, Topic
 from service.sessions.facts import (
@@ -28,7 +28,7 @@ from service.sessions.facts import (
     performed_actions,
     spread_facts,
 )
-from service.sessions.referred import changes_number, named, options_told, tick_told
+from service.sessions.referred import changes_number, explained, named, options_told, tick_told
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import (
     Add,
@@ -66,6 +66,7 @@ class Conversation:
         self._latest_steps: tuple[int, ...] = ()
         """steps of undo of the latest two changes"""
         self._tick: int | None = None
+        self._explained: Ask | None = None
         self._offered: tuple[Action, ...] = ()
         self._away: tuple[int, ...] = ()
         """how many things each of them took off the road or moved"""
@@ -90,6 +91,11 @@ class Conversation:
         self._episode: Episode | None = None
         self._durable: Conversation | None = None
         """the memory without unstored talk, where that differs"""
+
+    @property
+    def explained(self) -> Ask | None:
+        """The question that was answered last, with the tick that its answer is about."""
+        return self._explained
 
     @property
     def durable(self) -> Conversation:
@@ -136,6 +142,8 @@ class Conversation:
             self._kind = None  # "one more" is one more lane
         for fact in amounts:
             self._record_change(fact)
+        if outcome.answer is not None or any(not isinstance(fact, Answerable) for fact in facts):
+            self._explained = None if outcome.answer is None else explained(outcome.answer, actions)
         self._tick = None if outcome.answer is None else tick_told(outcome.answer, actions)
         chosen = outcome.answer is None and outcome.utterance.actions[0] in self._offered
         self._offered = (
@@ -313,6 +321,7 @@ class Conversation:
             where=self._where,
             phrases=phrases,
             names=frozenset(name.casefold() for name in names),
+            columns=world.road.columns,
         )
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from service import actions as contract
-from service.actions import Action
+from service.actions import Action, Ask
 from service.sessions.log import LogEvent
 
 
@@ -54,6 +54,8 @@ class Talk:
     pending: PendingQuestion | None = None
     changes: Callable[[], tuple[LogEvent, ...]] = tuple
     """the log lines of what was done, the latest last"""
+    explained: Ask | None = None
+    """the question that was answered last, with the tick that it turned out to be about"""
 
 
 NO_TALK = Talk()
