@@ -163,8 +163,8 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
     )
     if marker.concept in (AMOUNT, MEASURE):
         passed = free | {GLUE}
-        over = [e for e in _ending_with(lattice, marker) if e.concept == GLUE]  # "time to"
-        return over + [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
+        before = [e for e in _ending_with(lattice, marker) if e.concept == GLUE]  # "time to 3 ticks"
+        return before + [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
     loose = free | {GLUE, SECOND, SPEAKER}
     if marker.concept == PHRASE:  # its first word decides: "in the rain", but "bring in the rain"
         here = [edge for edge in lattice.edges[marker.start] if edge.end <= marker.end]

@@ -40,6 +40,7 @@ _MADE_OF = {
     "noun": frozenset(("thing",)),
     "first": frozenset(("meant",)),
     "second": frozenset(("meant",)),
+    "which": _PLACE | {"thing"},
     "steps_or_one": frozenset(("steps",)),
     "less": frozenset(("columns", "rows")),
 }
