@@ -137,10 +137,9 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
     for at, clause in enumerate(clauses):
         if not clause.negated:
             continue
-        if (
-            same := next((each for each in clauses if _does_it_all_the_same(each, clause)), None)
-        ) is not None:
-            return Contradiction((same, clause))
+        for other in clauses:
+            if _does_it_all_the_same(other, clause):
+                return Contradiction((other, clause))
         if _says_how_many(clause, lattice):
             continue
         frame, slots = clause.filled.frame, clause.filled.slots
