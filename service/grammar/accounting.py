@@ -163,7 +163,7 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
     )
     if marker.concept in (AMOUNT, MEASURE):
         passed = free | {GLUE}
-        before = [e for e in _ending_with(lattice, marker) if e.concept == GLUE]  # "time to 3 ticks"
+        before = [e for e in _reaching_into(lattice, marker) if e.concept == GLUE]  # "time to 3 ticks"
         return before + [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
     loose = free | {GLUE, SECOND, SPEAKER}
     if marker.concept == PHRASE:  # its first word decides: "in the rain", but "bring in the rain"
@@ -175,6 +175,12 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
     if marker.concept == POINTER:
         found += _ending_with(lattice, marker)
     return found
+
+
+def _reaching_into(lattice: Lattice, marker: Edge) -> list[Edge]:
+    """The edges that begin before a marker and end in it: the "at all" of "at all but two"."""
+    before = lattice.edges[max(0, marker.start - LONGEST_BEFORE) : marker.start]
+    return [edge for starting in before for edge in starting if marker.start < edge.end <= marker.end]
 
 
 def _ending_with(lattice: Lattice, marker: Edge) -> list[Edge]:

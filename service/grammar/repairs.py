@@ -34,6 +34,9 @@ DROPPED = "dropped"
 NUMBERS = "numbers"
 """That of words that take back only where a number follows: "no three"."""
 
+CAPTURES = "captures"
+"""Concept of verbs after which a name stands: "save this as"."""
+
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
 
@@ -137,7 +140,10 @@ class Repair:
         is wanted ("instead of A* use Dijkstra"): "instead of making it night" wants nothing.
         """
         if self._end == 0 and end < self._tail:
-            if any(edge.concept.startswith(VERB) for edge in self._lattice.between(self._again, end)):
+            dropped = list(self._lattice.between(self._again, end))
+            if any(edge.concept.startswith((VERB, CAPTURES)) for edge in dropped):
+                return False
+            if all(edge.concept in SKIPPED or edge.sense.value is None for edge in dropped):
                 return False
             if not any(edge.concept.startswith(VERB) for edge in self._lattice.edges[end]):
                 return False
