@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 from service.actions import Action
+from service.grammar.accounting import VERB
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
 from service.grammar.noun_phrases import QUANTITY
 from service.grammar.parse_types import Choice, Understood
@@ -35,6 +36,9 @@ DENIED = "denied"
 
 NUMBERS = "numbers"
 """That of words that take back only where a number follows: "no three"."""
+
+CAPTURES = "captures"
+"""Concept of verbs after which a name stands: "save this as"."""
 
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
@@ -128,7 +132,7 @@ class Repair:
         """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""
         said = ends_of_pieces(steps_of(self._lattice), self._again, self._work)
         found: list[Choice] = []
-        for end in sorted(end for end in said if end <= self._tail and self._stands_elsewhere(end)):
+        for end in sorted(end for end in said if end <= self._tail and self._is_apart(end)):
             before = self._written(0, self._edge.start if end < self._tail else self._end)
             text = f"{before} {self._written(self._past_separators(end), self._lattice.size)}".strip(" ,;")
             parsed = read(text)
@@ -137,6 +141,22 @@ class Repair:
             if all(c.actions != parsed.actions for c in found):
                 found.append(Choice(text, parsed.actions))
         return found
+
+    def _is_apart(self, end: int) -> bool:
+        """Whether what is not wanted ends there: before other words of its kind, and not inside its request.
+
+        At the beginning it ends at a mark ("instead of adding a cone, add a bus") or before the verb of what
+        is wanted ("instead of A* use Dijkstra"): "instead of making it night" wants nothing.
+        """
+        if self._end == 0 and end < self._tail:
+            dropped = list(self._lattice.between(self._again, end))
+            if any(edge.concept.startswith((VERB, CAPTURES)) for edge in dropped):
+                return False
+            if all(edge.concept in SKIPPED or edge.sense.value is None for edge in dropped):
+                return False
+            if not any(edge.concept.startswith(VERB) for edge in self._lattice.edges[end]):
+                return False
+        return self._stands_elsewhere(end)
 
     def _points(self, end: int) -> bool:
         """Whether what is dropped are things on the road: "instead of that cone" is more than not to add one."""

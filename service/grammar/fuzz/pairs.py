@@ -144,6 +144,10 @@ def _goes_on(one: Saying, other: Saying, got: Actions) -> bool:
     *before, last = one.actions
     inner = next((key for key in ("change", "meaning") if key in last), None)
     at = len(before)
+    if "move" in last and len(got) == at + 1 and "change" in got[at]:
+        return (
+            list(got[:at]) == before
+        )  # "what if you had gone left and …": the move is part of what is supposed
     if inner is None or list(got[:at]) != before or len(got) <= at:
         return False
     inside, own = got[at].get(inner, last[inner]), last[inner]

@@ -12,6 +12,7 @@ from service.grammar.corpus import sentences
 from service.grammar.data import TEST_SUFFIX
 from service.grammar.engine import Language
 from service.grammar.fragments import INTERJECTION
+from service.grammar.order import ORDER
 from service.grammar.parse_types import Understood
 from service.grammar.span_patterns import REPAIR
 from service.resources import prompts_folder
@@ -56,9 +57,9 @@ class Sayings:
     def joinable(self) -> tuple[Saying, ...]:
         """Those that say nothing about the sentence beside them: no correction, no call ("autopilot, …").
 
-        Small talk is none of them either: beside a request it is passed over.
+        Words of order are about it. Small talk is none of them either: beside a request it is passed over.
         """
-        aside = (REPAIR, INTERJECTION)
+        aside = (REPAIR, INTERJECTION, ORDER)
         return tuple(
             saying
             for saying in self.all
