@@ -42,7 +42,10 @@ PHRASE = "marker.phrase"
 CLAUSE = "marker.clause"
 """Words that begin a clause of condition or time; they are no part of a name without quotation marks."""
 
-MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, POINTER, PHRASE, CLAUSE))
+IDIOM = "marker.idiom"
+"""Phrases of other subjects: none of their words means anything alone: "snow globe", "on the road again"."""
+
+MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, POINTER, PHRASE, CLAUSE, IDIOM))
 
 LONGEST_BEFORE = 4
 """Tokens of the longest phrase before a pointing word that is looked at."""
@@ -101,7 +104,7 @@ def restored(lattice: Lattice, withheld: Sequence[Withheld], end: int) -> Iterat
 def _operand(lattice: Lattice, marker: Edge) -> int | None:
     """Where that ends which a marker decides about, or None where it is in no role."""
     at = marker.end
-    if marker.concept == PHRASE:
+    if marker.concept in (PHRASE, IDIOM):
         return at
     if at >= lattice.size:
         return None
@@ -158,6 +161,8 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
         for edge in starting
         if edge.end <= marker.end
     )
+    if marker.concept == IDIOM:
+        return list(inside)
     if marker.concept in (AMOUNT, MEASURE):
         passed = free | {GLUE}
         return [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]

@@ -95,7 +95,9 @@ class Divider:
             clause, used = self._next(parts, at, context)
             if clause is not None and at + used < len(parts) and self._either_way(parts, at, used):
                 clause, at = None, at + used
-            if clause is None or (divided.clauses and self._says_twice(divided.clauses[-1], clause, parts[at])):
+            if clause is None or (
+                divided.clauses and self._says_twice(divided.clauses[-1], clause, parts[at])
+            ):
                 divided.failed = parts[at]
                 return divided
             divided.clauses.append(replace(clause, after=parts[at].after))
@@ -133,7 +135,9 @@ class Divider:
                 return clause, used
             own = self._composition.verb_of_its_own(said[0]) is not None
             optional = _optional(clause, apart)
-            leans = bool(context.verb) and parts[at].after != STOP and self._composition.alone(said[0]) is None
+            leans = (
+                bool(context.verb) and parts[at].after != STOP and self._composition.alone(said[0]) is None
+            )
             if not (own or optional or context.verb) and said[heads[-1]].after in (PAUSE, AND):
                 return clause, used
             if own or said[heads[-1]].after not in (PAUSE, AND) or (optional and leans):
@@ -160,7 +164,11 @@ class Divider:
 
     def _describes_hazard(self, parts: Sequence[Fragment], at: int) -> bool:
         """Whether a part that may lean is a question with the next: "pothole 2 m ahead, speed 40 km/h"."""
-        if at + 1 == len(parts) or parts[at + 1].after != PAUSE or self._composition.verb_of_its_own(parts[at]):
+        if (
+            at + 1 == len(parts)
+            or parts[at + 1].after != PAUSE
+            or self._composition.verb_of_its_own(parts[at])
+        ):
             return False
         both = self._stretches.make(parts[at].start, parts[at + 1].end, joined=True)
         found = self._matcher.match(both)
@@ -230,7 +238,11 @@ class Divider:
             return True
         if used > 1 and self._describes_hazard(parts, at - 1):
             return True
-        if parts[at].after == PAUSE or parts[at].after not in _TOGETHER or not self._begins_request(parts, at):
+        if (
+            parts[at].after == PAUSE
+            or parts[at].after not in _TOGETHER
+            or not self._begins_request(parts, at)
+        ):
             return False
         before = self._stretches.make(parts[first].start, parts[at].end, joined=True)
         return self._matcher.match(before, verbless=False) is not None

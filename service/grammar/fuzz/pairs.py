@@ -69,7 +69,11 @@ def verdict(language: Language, pair: Joined) -> Verdict:
         return "declared"
     parsed = language.parse(text)
     found = judge(one, other, parsed)
-    if found == "changed" and isinstance(parsed, Understood) and _is_ordered(language, pair, dump(parsed.actions)):
+    if (
+        found == "changed"
+        and isinstance(parsed, Understood)
+        and _is_ordered(language, pair, dump(parsed.actions))
+    ):
         return "declared"
     return found
 
@@ -79,7 +83,9 @@ def _is_ordered(language: Language, pair: Joined, got: Actions) -> bool:
     wanted = [*pair[0].actions, *pair[1].actions]
     said = (each for saying in pair[:2] for each in language.concepts(saying.text))
     ordered = any(each.startswith(ORDER) for each in said)
-    return ordered and len(got) == len(wanted) and all(got.count(each) == wanted.count(each) for each in wanted)
+    return (
+        ordered and len(got) == len(wanted) and all(got.count(each) == wanted.count(each) for each in wanted)
+    )
 
 
 def _is_idiom(language: Language, one: Saying, text: str) -> bool:
