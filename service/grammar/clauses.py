@@ -288,6 +288,8 @@ class Divider:
         plain = self._stretches.make(start, end)
         found = self._matcher.match(plain, verbless=False)
         if found is not None:
+            if found[0].frame.leaves_out and self._takes_out(part, context):
+                return None
             clause = Clause(start, end, *found, negated=found[0].frame.leaves_out)
             belongs = self._composition.also_leans(part, found, context)
             return clause if belongs is None else replace(clause, instead=(Clause(start, end, *belongs),))
@@ -398,6 +400,11 @@ class Divider:
         said = list(self._lattice.between(part.start, part.end))
         if any(edge.concept.startswith("v.") for edge in said):
             return False
+        return self._takes_out(part, context)
+
+    def _takes_out(self, part: Fragment, context: Context) -> bool:
+        """Whether the things it names are among those that were said to be all: "…, but keep the cones"."""
+        said = list(self._lattice.between(part.start, part.end))
         kinds = {edge.sense.value.of for edge in said if isinstance(edge.sense.value, Amount)}
         whole = context.noun is not None and context.noun.concept.endswith(_WHOLE)
         return context.everything or (
@@ -415,6 +422,7 @@ def _context(clause: Clause, before: Context) -> Context:
     amounts = [edge for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)]
     noun = amounts[-1] if amounts else before.noun
     everything = any(edge.sense.concept == EVERYTHING for edge in clause.filled.slots)
+    everything = everything or any(action.get("kind") == EVERYTHING for action in clause.actions)
     last = max(clause.filled.slots, key=lambda edge: edge.end, default=None)
     placed = last is not None and last.concept in _PLACED
     return Context(

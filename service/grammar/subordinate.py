@@ -15,6 +15,7 @@ from service.grammar.lattice import GLUE, NAME, Edge, Lattice
 from service.grammar.paths import SEPARATOR
 
 WHAT_IF = "what_if"
+HAD_MOVED = "had_moved"
 IF = "if"
 THEN_WHAT = "then_what"
 TEACH = "teach"
@@ -40,6 +41,9 @@ def read_all(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided 
     """The clauses of all sentences in `[start, end)`, or the part of one that nothing fits."""
     whole = Divided()
     for after, first, last in _sentences(lattice, start, end):
+        if (supposed := _move_supposed(lattice, first, last, divide)) is not None:
+            whole.clauses += supposed.clauses
+            continue
         result = _read_subordinate(lattice, first, last, divide)
         if isinstance(result, Fragment):
             return result
@@ -64,6 +68,17 @@ def _may_go_on(question: Clause, clause: Clause) -> bool:
     """Whether what has no verb may belong to the scenario that was supposed: "… a highway. 10 potholes"."""
     said = [each["do"] for action in question.actions for each in action.get("change", ())]
     return clause.filled.frame.verbless and not asks(clause.actions) and said[-1:] == [SCENARIO]
+
+
+def _move_supposed(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided | None:
+    """The question about another move in the past, which is a frame of its own; None for another sentence."""
+    if HAD_MOVED not in lattice.concepts:
+        return None
+    tried = divide(start, end, frozenset())
+    asks = [value for clause in tried.clauses for value in clause.actions]
+    if tried.failed is not None or len(asks) != 1 or "move" not in asks[0] or asks[0].get("about") != WHAT_IF:
+        return None
+    return tried
 
 
 def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[str, int, int]]:
