@@ -45,7 +45,10 @@ WHOLE = "marker.whole"
 CLAUSE = "marker.clause"
 """Words that begin a clause of condition or time; they are no part of a name without quotation marks."""
 
-MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, POINTER, PHRASE, WHOLE, CLAUSE))
+IDIOM = "marker.idiom"
+"""Phrases of other subjects: none of their words means anything alone: "snow globe", "on the road again"."""
+
+MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, POINTER, PHRASE, WHOLE, CLAUSE, IDIOM))
 
 LONGEST_BEFORE = 4
 """Tokens of the longest phrase before a pointing word that is looked at."""
@@ -104,7 +107,7 @@ def restored(lattice: Lattice, withheld: Sequence[Withheld], end: int) -> Iterat
 def _operand(lattice: Lattice, marker: Edge) -> int | None:
     """Where that ends which a marker decides about, or None where it is in no role."""
     at = marker.end
-    if marker.concept in (PHRASE, WHOLE):
+    if marker.concept in (PHRASE, WHOLE, IDIOM):
         return at
     if at >= lattice.size:
         return None
@@ -161,6 +164,8 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
         for edge in starting
         if edge.end <= marker.end
     )
+    if marker.concept == IDIOM:
+        return list(inside)
     if marker.concept in (AMOUNT, MEASURE):
         passed = free | {GLUE}
         before = [e for e in _reaching_into(lattice, marker) if e.concept == GLUE]  # "time to 3 ticks"

@@ -35,7 +35,7 @@ _FURTHER = ("more", "another")
 _PLACED = ("place", "side", "length")
 
 CONTRAST = "contrast"
-ADD = "add"
+_COUNTING = ("add", "set_count")
 SCENARIO = "scenario"
 EVERYTHING = "everything"
 
@@ -125,14 +125,22 @@ class Divider:
             heads = self._composition.heads(clause.filled, said)
             if not heads:
                 swallowed = self._composition.swallows((clause.filled, clause.actions), said)
-                return (self._or_apart(clause, said, context) if swallowed else clause), used
+                either = self._or_apart(clause, said, context) if swallowed else clause
+                if swallowed and not either.instead and self._composition.loses_first(clause.actions, said):
+                    end = at + 1
+                    continue
+                return either, used
             apart = self._requests(said, heads, context)
             if apart is None or _same(apart, clause):
-                swallowed = self._composition.swallows((clause.filled, clause.actions), said[: heads[0]])
-                return (self._or_apart(clause, said, context) if swallowed else clause), used
+                if self._composition.loses_first(clause.actions, said):
+                    end = at + 1
+                    continue
+                return clause, used
             own = self._composition.verb_of_its_own(said[0]) is not None
             optional = _optional(clause, apart)
-            leans = bool(context.verb) and self._composition.alone(said[0]) is None
+            leans = (
+                bool(context.verb) and parts[at].after != STOP and self._composition.alone(said[0]) is None
+            )
             if not (own or optional or context.verb) and said[heads[-1]].after in (PAUSE, AND):
                 return clause, used
             if own or said[heads[-1]].after not in (PAUSE, AND) or (optional and leans):
@@ -231,6 +239,8 @@ class Divider:
         at = first + used
         if used > 1 and parts[at - 1].after == PAUSE and self._begins_request(parts, at - 1):
             return True
+        if used > 1 and self._describes_hazard(parts, at - 1):
+            return True
         if (
             parts[at].after == PAUSE
             or parts[at].after not in _TOGETHER
@@ -242,11 +252,11 @@ class Divider:
 
     def _says_twice(self, before: Clause, clause: Clause, part: Fragment) -> bool:
         """Whether a part without a verb would be in the scenario before it, which has that already."""
-        if part.after not in (PAUSE, AND) or self._composition.verb_of_its_own(part) is not None:
+        if part.after not in (PAUSE, STOP, AND) or self._composition.verb_of_its_own(part) is not None:
             return False
         said = {key for action in before.actions if action["do"] == SCENARIO for key in action}
         return any(
-            action["do"] == ADD and "where" not in action and f"{action['kind']}s" in said
+            action["do"] in _COUNTING and "where" not in action and f"{action['kind']}s" in said
             for action in clause.actions
         )
 

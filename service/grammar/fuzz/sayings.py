@@ -21,6 +21,9 @@ from service.yaml_files import read_yaml
 _VERBS = ("v.", "want", "there_be", "q.")
 """Beginnings of the concepts of words that say what is to be done or known."""
 
+_ASIDE = "q.tell"
+"""That of words beside a question, some of which stand in requests too: "please", "at"."""
+
 
 @dataclass(frozen=True, slots=True)
 class Saying:
@@ -73,7 +76,8 @@ class Sayings:
         if not isinstance(parsed, Understood) or parsed.corrections:
             return None
         asks = all(traits_of(action).is_question for action in parsed.actions)
-        verb = any(each.startswith(_VERBS) for each in self._language.concepts(text))
+        said = self._language.concepts(text) - {_ASIDE}
+        verb = any(each.startswith(_VERBS) for each in said)
         return Saying(text, tuple(dump(parsed.actions)), asks, verb)
 
     def _of_frames(self) -> list[str]:
