@@ -6,7 +6,7 @@ Grammar, language model, voice and typed REST calls all produce an `Action`. Act
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
@@ -19,12 +19,16 @@ from service.actions.goals import Goal, Style
 from service.actions.questions import (
     HISTORY_KEYS,
     QUESTIONS,
+    WHAT_KEYS,
     WHATS,
+    BlameName,
     Choosable,
     DetailName,
     HistoryName,
     MetricName,
     OtherName,
+    OutlookName,
+    PlannersName,
     QuestionName,
     QuestionTraits,
     Term,
@@ -47,11 +51,14 @@ from service.actions.steering import (
     Undo,
 )
 from sim.actions import Parameter, PlaceableKind, Where, WorldAction
+from sim.planner_names import PlannerName
 from sim.types import Move
 
 Phrase = Annotated[str, MinLen(1), MaxLen(80)]
 MAX_MEANT = 50
 """How many actions a what-if or a taught phrase may hold."""
+MAX_PLANNERS = 8
+"""How many planners one question may name."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,7 +91,7 @@ class Ask:
     value: int | float | str | None = None
     """the value that a setting is asked to have: answered by yes or no first"""
     term: Term | None = None
-    what: HistoryName | OtherName | None = None
+    what: HistoryName | OtherName | OutlookName | BlameName | PlannersName | None = None
     until: Annotated[int, Ge(0)] | None = None
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None
@@ -92,9 +99,12 @@ class Ask:
     seconds: Annotated[float, Gt(0), Le(100_000)] | None = None
     """the same in seconds"""
     count: Annotated[int, Ge(1), Le(1000)] | None = None
-    """how many of the latest changes are meant, or how many moments are looked for"""
+    """how many of the latest changes are meant, or moments looked for; 1 of a kind of things: the nearest"""
     how: DetailName | None = None
     which: Which | None = None
+    planners: Annotated[tuple[PlannerName, ...], MinLen(1), MaxLen(MAX_PLANNERS)] | None = None
+    """the planners that are asked about, where not all of them"""
+    planner: PlannerName | None = None
 
     __pydantic_config__ = STRICT
 
@@ -108,21 +118,28 @@ class Ask:
                 raise ValueError(f"a question about {self.about} needs '{key}'")
         if self.about == "setting" and self.parameter in get_args(Choosable):
             raise ValueError(f"'{self.parameter}' has options and no value")
-        if self.what is not None and self.what not in WHATS[self.about]:
-            raise ValueError(f"a question about {self.about} has no '{self.what}'")
+        if self.about == "scene" and self.count is not None and (self.count != 1 or self.kind is None):
+            raise ValueError("a question about the scene counts one thing, the nearest of a kind")
         if self.about == "what_if" and (self.change is None) is (self.move is None):
             raise ValueError("say exactly one of 'change' and 'move'")
-        if self.about == "history" and self.what is not None:
-            self._check_ticks(self.what)  # type: ignore[arg-type]
         if sum(each is not None for each in (self.tick, self.ticks, self.seconds)) > 1:
             raise ValueError("say one of 'tick', 'ticks' and 'seconds'")
+        if self.what is not None:
+            self._check_what(self.what)
         _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))
 
-    def _check_ticks(self, what: HistoryName) -> None:
-        """Raise `ValueError` unless the ticks are named that a question about the past needs."""
-        named = frozenset(key for key in ("tick", "until", "ticks") if getattr(self, key) is not None)
-        if named not in HISTORY_KEYS[what]:
-            ways = " or ".join(" and ".join(sorted(keys)) or "no tick" for keys in HISTORY_KEYS[what])
+    def _check_what(self, what: str) -> None:
+        """Raise `ValueError` unless `what` belongs to the question and all is named that it needs."""
+        if what not in WHATS[self.about]:
+            raise ValueError(f"'{what}' does not belong to a question about {self.about}")
+        if self.about == "other":
+            return  # its keys do not depend on what is asked
+        keys: Mapping[str, tuple[frozenset[str], ...]] = (
+            HISTORY_KEYS if self.about == "history" else WHAT_KEYS
+        )
+        named = frozenset(key for key in _BESIDE_WHAT if getattr(self, key) is not None)
+        if named not in keys[what]:
+            ways = " or ".join(" and ".join(sorted(each)) or "nothing more" for each in keys[what])
             raise ValueError(f"a question about {what} names {ways}")
         if self.tick is not None and self.until is not None and self.until < self.tick:
             raise ValueError("a stretch of ticks ends after it begins")
@@ -130,6 +147,8 @@ class Ask:
 
 _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "about"))
 """All that a question may name."""
+_BESIDE_WHAT = ("move", "tick", "until", "ticks", "planners", "planner")
+"""Keys that some values of `what` need, and others must not have."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -28,7 +28,16 @@ QuestionName = Literal[
     "detail",
     "other",
     "pattern",
+    "outlook",
+    "blame",
+    "planners",
 ]
+OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how"]
+"""What of the time ahead is asked about."""
+BlameName = Literal["fault", "too_late", "foreseen", "avoidable"]
+"""What about a crash is asked."""
+PlannersName = Literal["here", "compare", "character", "own"]
+"""What about planners is asked; `own`: what this session's would have done where a person drove."""
 HistoryName = Literal["closest_call", "summary", "since", "between", "seen", "riskiest", "similar"]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
 OtherName = Literal["why", "going"]
@@ -124,7 +133,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "why_not": QuestionTraits(("move", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
     "what_if": QuestionTraits(("change", "move", "tick", "ticks", "seconds"), runs_episodes=True),
     "next": QuestionTraits(),
-    "scene": QuestionTraits(("kind",)),
+    "scene": QuestionTraits(("kind", "count")),
     "status": QuestionTraits(),
     "metrics": QuestionTraits(("metric",)),
     "confidence": QuestionTraits(runs_episodes=True),
@@ -142,7 +151,35 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
         ("what", "which", "move", "tick", "ticks", "seconds"), ("what", "which"), runs_episodes=True
     ),
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
+    "outlook": QuestionTraits(("what", "move"), ("what",), runs_episodes=True),
+    "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
+    "planners": QuestionTraits(("what", "planners", "planner", "tick"), ("what",), runs_episodes=True),
 }
+
+WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
+    "history": get_args(HistoryName),
+    "other": get_args(OtherName),
+    "outlook": get_args(OutlookName),
+    "blame": get_args(BlameName),
+    "planners": get_args(PlannersName),
+}
+"""The values of `what` that a kind of question may have."""
+
+WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
+    "safe": (frozenset(("move",)),),
+    "arrival": (frozenset(),),
+    "crash": (frozenset(),),
+    "arrive_how": (frozenset(),),
+    "stuck": (frozenset(),),
+    "avoid_how": (frozenset(),),
+    **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
+    "here": (frozenset(), frozenset(("planners",))),
+    "compare": (frozenset(), frozenset(("planners",))),
+    "character": (frozenset(), frozenset(("planner",))),
+    "own": (frozenset(), frozenset(("tick",))),
+}
+"""What else a question names beside each `what`, in each of the ways it can be said; those of the past have
+`HISTORY_KEYS`."""
 
 HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "closest_call": (frozenset(),),
@@ -154,9 +191,3 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "similar": (frozenset(), frozenset(("tick",))),
 }
 """The ticks that a question about the past names, in each of the ways it can be said."""
-
-WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
-    "history": get_args(HistoryName),
-    "other": get_args(OtherName),
-}
-"""What may be asked by the questions that name a `what`."""

@@ -72,6 +72,8 @@ def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
     """The actions of a filled frame, in the order their things were said. Raises `CannotBuild`."""
     frame = filled.frame
     maker = _Maker(filled, parameters)
+    if frame.only and any(e.sense.value != frame.only.get(e.concept, e.sense.value) for e in filled.slots):
+        raise CannotBuild("a value that it does not take")
     if not frame.per:
         return [made for template in frame.actions for made in maker.actions(template)]
     turns = filled.of(*frame.per)

@@ -75,6 +75,10 @@ class Sentences(ThingSentences):
         """What a value of a setting is called. Raises `Unsayable`."""
         return self._value(parameter, name)
 
+    def view(self, name: str) -> str:
+        """What a view is called. Raises `Unsayable`."""
+        return self._word("views", name)
+
     def sentence(self, actions: Sequence[Action]) -> str:
         """One sentence for all of them, in order. Raises `Unsayable`."""
         if not actions or not self._words:
@@ -229,6 +233,8 @@ class Sentences(ThingSentences):
                 return self._say("pattern") if ask.move is None else self._word("patterns", ask.move)
             case "what_if":
                 return self._say("what_if", change=self.sentence(ask.change or ()))
+            case "scene" if ask.kind is not None and ask.count is not None:
+                return self._say("scene_nearest", thing=self._entry("things", ask.kind)[0])
             case "scene" if ask.kind is not None:
                 return self._say("scene_kind", things=self._entry("things", ask.kind)[1])
             case "metrics" if ask.metric is not None:

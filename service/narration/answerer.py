@@ -48,6 +48,8 @@ def question(sayings: Sayings, ask: Ask) -> str:
         key = "why_instead" if ask.move is not None else "why_any_instead"
     if ask.what is not None:
         key = f"{ask.about}_{ask.what}"
+        if ask.planner is not None:
+            key += "_of"
     elif ask.how is not None:
         key = f"detail_{ask.how}"
     elif ask.about == "pattern":
@@ -72,6 +74,7 @@ def question(sayings: Sayings, ask: Ask) -> str:
         metric=metric,
         setting=named,
         until=ask.until,
+        planner="" if ask.planner is None else sayings.planner(ask.planner),
         term="" if ask.term is None else sayings.say("glossary", "names", ask.term),
     )
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from service.narration.advice import Advices
+from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, plain
+from service.narration.blame import Blames
 from service.narration.confidence import Confidences
 from service.narration.details import Details
 from service.narration.glossary import Glossary
@@ -16,6 +18,7 @@ from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
 from service.narration.next import Next
 from service.narration.others import Others
+from service.narration.planners import Planners
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.settings import Settings
@@ -57,6 +60,9 @@ class Answers:
             "detail": self._details,
             "other": Others(sayings),
             "pattern": Patterns(sayings),
+            "outlook": Outlooks(sayings),
+            "blame": Blames(sayings),
+            "planners": Planners(sayings),
         }
 
     def answer(self, asked: Answerable) -> Json:

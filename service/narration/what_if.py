@@ -70,12 +70,13 @@ class WhatIfs:
             message = refusals(self._sayings.language).edit(error)
             told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=message))
             return told | {"evidence": {"code": error.category, "field": error.field, "message": message}}
-        text = self._text(ask, found)
+        text = self.text(ask, found)
         if len(actions) < len(change):
             text = f"{text} {self._say('rest_aside')}"
         return plain(self._sayings, ask, found.state, text) | what_if_json(change, found)
 
-    def _text(self, ask: Ask, found: WhatIf) -> str:
+    def text(self, ask: Ask, found: WhatIf) -> str:
+        """What would be, in words."""
         told = []
         if found.real.by_hand:
             told.append(self._say("by_hand"))

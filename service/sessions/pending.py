@@ -34,6 +34,13 @@ class PendingQuestion:
     """who understood the utterance so far: the grammar, or a language model"""
     language: str
 
+    @property
+    def kind(self) -> str | None:
+        """The one kind of thing that all choices are about."""
+        kinds = [{getattr(action, "kind", None) for action in each.actions} for each in self.choices]
+        named = kinds[0] if kinds and all(each == kinds[0] for each in kinds) else set()
+        return named.pop() if len(named) == 1 else None
+
     def to_json(self) -> dict[str, Any]:
         """The question as JSON values, the form in which clients see it."""
         choices = [{"text": each.text, "actions": contract.dump(each.actions)} for each in self.choices]
