@@ -15,16 +15,17 @@ from service.actions import Action
 from service.actions.table import traits_of
 from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO, TOTAL
 from service.grammar.engine import Language
+from service.grammar.foil_follow_up import ask_of_foil
 from service.grammar.incomplete import ask_elsewhere, ask_what_is_missing
 from service.grammar.last_request import asked_anew
 from service.grammar.listed_options import choose_listed
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
+from service.grammar.same_request import to_other_things
 from service.grammar.sentences import Unsayable
 from service.grammar.setting_talk import read_of_setting
 from service.grammar.short_talk import read_short
-from service.grammar.same_request import to_other_things
 from service.grammar.thing_talk import read_asked, read_of_things
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
@@ -53,6 +54,8 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
         of_setting = read_of_setting(language, text, topic, parsed)
         if of_setting is not None:
             return of_setting
+    if not topic.undone and (of_foil := ask_of_foil(language, text, topic, parsed)) is not None:
+        return of_foil
     if alone and (said := read_short(language, text, topic) or read_asked(language, text, topic)):
         return said
     if not topic.actions or topic.undone:
