@@ -11,6 +11,7 @@ from typing import Any, get_args
 from pydantic import ValidationError
 
 from service.actions import QUESTIONS, ChatKind, Choosable, MetricName, Term, ViewName, load
+from service.actions.questions import DetailName
 from service.grammar.sentences import Sentences, Unsayable
 from service.styles import styles
 from sim.actions import (
@@ -154,11 +155,14 @@ def _settings() -> Iterator[dict[str, Any]]:
 
 
 def _questions() -> Iterator[dict[str, Any]]:
-    for about in (about for about, traits in QUESTIONS.items() if not traits.must):
+    for about in (about for about, traits in QUESTIONS.items() if not traits.must and about != "what_if"):
         yield {"do": "ask", "about": about}
     for move in Move:
         yield {"do": "ask", "about": "why_not", "move": move}
         yield {"do": "ask", "about": "why", "move": move}
+        yield {"do": "ask", "about": "what_if", "move": move}
+        yield {"do": "ask", "about": "pattern", "move": move}
+        yield {"do": "ask", "about": "why", "instead": move}
     for kind in PLACEABLE:
         yield {"do": "ask", "about": "scene", "kind": kind}
         yield {"do": "ask", "about": "scene", "kind": kind, "count": 1}
@@ -179,6 +183,15 @@ def _questions() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "history", "what": "since", "ticks": 10}
     yield {"do": "ask", "about": "history", "what": "between", "tick": 5, "until": 20}
     yield {"do": "ask", "about": "history", "what": "seen", "tick": 5}
+    yield {"do": "ask", "about": "history", "what": "riskiest"}
+    yield {"do": "ask", "about": "history", "what": "similar", "count": 3}
+    yield {"do": "ask", "about": "why", "move": "left", "instead": "right"}
+    for how in get_args(DetailName):
+        yield {"do": "ask", "about": "detail", "how": how}
+    for which in ({"kind": "vehicle", "nearest": True}, {"kind": "vehicle", "side": "ahead"}):
+        yield {"do": "ask", "about": "other", "what": "going", "which": which}
+        for moved in ({}, {"move": "left"}, {"move": "right"}, {"move": "stay"}):
+            yield {"do": "ask", "about": "other", "what": "why", "which": which, **moved}
 
 
 def _rest() -> Iterator[dict[str, Any]]:

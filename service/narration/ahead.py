@@ -94,9 +94,9 @@ class Outlooks:
         first, last = sure.arrival_ticks or (0, 0)
         facts = {"metres": self._metres(state)}
         if first == last and sure.arrives == 1.0 and sure.futures is None:
-            return self._say(
-                "arrival", "sure", seconds=self._seconds(last, state), **facts
-            ), arrival_json(found)
+            return self._say("arrival", "sure", seconds=self._seconds(last, state), **facts), arrival_json(
+                found
+            )
         text = self._say(
             "arrival",
             "chance",

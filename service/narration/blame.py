@@ -115,7 +115,9 @@ class Blames:
             return self._say("foreseen", "unseen" if found.seen_since is None else "elsewhere", who=who)
         before = found.crash.end - since
         seconds = self._seconds(before, found.state)
-        told = self._say("foreseen", "late" if before == 1 else "expected", who=who, tick=since, seconds=seconds)
+        told = self._say(
+            "foreseen", "late" if before == 1 else "expected", who=who, tick=since, seconds=seconds
+        )
         return told if found.crash.free else f"{told} {self._say('foreseen', 'no_way')}"
 
     def _hit(self, crash: Crash, state: SimState) -> str:

@@ -68,7 +68,9 @@ class Planners:
         if own:
             names = self._say("driving", planner=names)
         return capital(
-            self._say("line", planners=names, what=self._what(found, first, own), end=self._end(first.foresight))
+            self._say(
+                "line", planners=names, what=self._what(found, first, own), end=self._end(first.foresight)
+            )
         )
 
     def _what(self, found: PlannersHere, drive: PlannerDrive, own: bool) -> str:
