@@ -16,7 +16,7 @@ from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
 from service.narration.crash_ahead import CrashesAhead
-from service.narration.futures_told import end_told, share_told
+from service.narration.futures_told import counted_told, end_told, share_told
 from service.narration.naming import Naming
 from service.narration.repair import Repairs
 from service.narration.sayings import Sayings
@@ -108,11 +108,7 @@ class Outlooks:
         return text, arrival_json(found)
 
     def _share(self, found: Arrival) -> str:
-        sure = found.confidence
-        if sure.futures is None:
-            return share_told(self._sayings, sure.arrives, None)
-        count = round(sure.arrives * sure.futures)
-        return self._sayings.say("confidence", "likely", "drawn", arrived=count, futures=sure.futures)
+        return counted_told(self._sayings, found.confidence.arrives, found.confidence.futures)
 
     def _never(self, found: Arrival) -> str:
         planner = self._sayings.planner(planner_of(found.state), "with")

@@ -12,7 +12,7 @@ from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
-from sim.explain.blame import Blame, Fault, Foreseen, blame, foreseen
+from sim.explain.blame import RERUN_TICKS, Blame, Fault, Foreseen, blame, foreseen
 from sim.explain.crash import SAVED_WITHIN, Crash
 from sim.state import SimState
 
@@ -49,8 +49,7 @@ class Blames:
     def _fault(self, found: Blame) -> list[Part]:
         decision = found.decision
         parts: dict[str, object] = {"who": self._hit(found.crash, found.state)}
-        for form in ("did", "do"):
-            parts[form] = self._sayings.move(decision.move, form)
+        parts["did"] = self._sayings.move(decision.move, "did")
         if decision.fault is not None:
             parts["fault"] = self._sayings.fault(decision.fault)
         parts["planner"] = self._sayings.planner(decision.planner, "id")
@@ -94,7 +93,8 @@ class Blames:
         """That there was no way out, or that none was found."""
         if found.avoidable.proved:
             return self._say(table, proved)
-        looked = min(SAVED_WITHIN, found.crash.end - found.state.world.episode_start)
+        most = SAVED_WITHIN if found.state.config.free_ways_hold else RERUN_TICKS
+        looked = min(most, found.crash.end - found.state.world.episode_start)
         return self._say(table, "unknown", seconds=self._seconds(looked, found.state))
 
     def _last(self, found: Blame) -> dict[str, object]:

@@ -27,14 +27,31 @@ def end_told(sayings: Sayings, seen: Foresight, *, since: int | None = None) -> 
     )
 
 
+def clear_told(sayings: Sayings, seen: Foresight) -> str:
+    """The same where it is a crash that matters: its chance, where that is left to chance."""
+    if seen.by_chance:
+        return sayings.say("ahead", "ends", "clear", share=share_told(sayings, seen.crashes, seen.chances))
+    return end_told(sayings, seen)
+
+
 def share_told(sayings: Sayings, share: float, found: Chances | None) -> str:
     """A share of futures: exact in per cent, or how many of those that were drawn."""
-    if found is not None and found.futures is not None:
-        count = round(share * found.futures)
-        return sayings.say("confidence", "likely", "drawn", arrived=count, futures=found.futures)
+    futures = None if found is None else found.futures
+    return counted_told(sayings, share, futures)
+
+
+def counted_told(sayings: Sayings, share: float, futures: int | None) -> str:
+    """A share of so many futures that were drawn; None where the share is exact."""
+    key, count = "exact", 0
+    if futures is not None:
+        count = round(share * futures)
+        key = "drawn" if 0 < count < futures else "drawn_all" if count else "drawn_none"
+        key += "_one" if futures == 1 else ""
+    elif share in (0.0, 1.0):
+        key = "all" if share else "none"
     percent = sayings.number(round(100 * share))
     if 0.0 < share < 0.01:
         percent = sayings.say("confidence", "below")
     elif 0.99 < share < 1.0:
         percent = sayings.say("confidence", "above")
-    return sayings.say("confidence", "likely", "exact", percent=percent)
+    return sayings.say("ahead", "share", key, percent=percent, count=count, futures=futures)
