@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from service.narration.charges import in_seconds
 from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
 from sim.explain.chances import Chances
 from sim.explain.foresight import Foresight
+
+CONTRARY: Final = "contrary"
+"""What a question supposes that asks the other way round: whether a move is dangerous, a crash inevitable."""
 
 
 def end_told(sayings: Sayings, seen: Foresight, *, since: int | None = None) -> str:
@@ -55,3 +61,9 @@ def counted_told(sayings: Sayings, share: float, futures: int | None) -> str:
     elif 0.99 < share < 1.0:
         percent = sayings.say("confidence", "above")
     return sayings.say("ahead", "share", key, percent=percent, count=count, futures=futures)
+
+
+def yes_and_no(sayings: Sayings, asked: Asked) -> dict[str, str]:
+    """The words for yes and no; they change places in a question that asks the other way round."""
+    words = [sayings.say("ahead", "answer", key) for key in ("agree", "disagree")]
+    return dict(zip(("yes", "no"), reversed(words) if asked.supposes == CONTRARY else words, strict=True))
