@@ -18,6 +18,7 @@ from service.actions.evaluation import Advise, Evaluate, FindWorst, ScenarioPart
 from service.actions.goals import Goal, Style
 from service.actions.questions import (
     QUESTIONS,
+    WHATS,
     Choosable,
     HistoryName,
     MetricName,
@@ -52,6 +53,7 @@ __all__ = [
     "ACTION_TYPES",
     "MAX_MEANT",
     "QUESTIONS",
+    "WHATS",
     "Action",
     "Advise",
     "Ask",
