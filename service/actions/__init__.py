@@ -11,6 +11,7 @@ from service.actions.action import (
     Forget,
     Phrase,
     Teach,
+    Which,
     dump,
     load,
 )
@@ -90,6 +91,7 @@ __all__ = [
     "Undo",
     "ViewName",
     "Where",
+    "Which",
     "dump",
     "load",
 ]

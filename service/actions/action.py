@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
-from annotated_types import Ge, Le, MaxLen, MinLen
+from annotated_types import Ge, Gt, Le, MaxLen, MinLen
 from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
@@ -23,8 +23,10 @@ from service.actions.questions import (
     WHATS,
     BlameName,
     Choosable,
+    DetailName,
     HistoryName,
     MetricName,
+    OtherName,
     OutlookName,
     PlannersName,
     QuestionName,
@@ -48,7 +50,7 @@ from service.actions.steering import (
     Ticks,
     Undo,
 )
-from sim.actions import Parameter, PlaceableKind, WorldAction
+from sim.actions import Parameter, PlaceableKind, Where, WorldAction
 from sim.planner_names import PlannerName
 from sim.types import Move
 
@@ -60,12 +62,27 @@ MAX_PLANNERS = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Which(Where):
+    """A road user that is asked about: the nearest one of a kind at a place, or one by its id."""
+
+    kind: PlaceableKind | None = None
+
+    __pydantic_config__ = STRICT
+
+    def __post_init__(self) -> None:
+        if self.kind is None and self.id is None:
+            raise ValueError("say 'kind' or 'id'")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Ask:
     """A question; which keys belong to which `about` is the contract's table."""
 
     do: Literal["ask"] = "ask"
     about: QuestionName
     move: Move | None = None
+    instead: Move | None = None
+    """the move that another one is compared with"""
     tick: Annotated[int, Ge(0)] | None = None
     change: Annotated[tuple[Action, ...], MinLen(1), MaxLen(MAX_MEANT)] | None = None
     kind: PlaceableKind | None = None
@@ -74,13 +91,17 @@ class Ask:
     value: int | float | str | None = None
     """the value that a setting is asked to have: answered by yes or no first"""
     term: Term | None = None
-    what: HistoryName | OutlookName | BlameName | PlannersName | None = None
+    what: HistoryName | OtherName | OutlookName | BlameName | PlannersName | None = None
     until: Annotated[int, Ge(0)] | None = None
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None
     """how far back a question about the past goes, instead of from `tick`"""
+    seconds: Annotated[float, Gt(0), Le(100_000)] | None = None
+    """the same in seconds"""
     count: Annotated[int, Ge(1), Le(1000)] | None = None
-    """how many of the latest changes are meant"""
+    """how many of the latest changes are meant, or moments looked for; 1 of a kind of things: the nearest"""
+    how: DetailName | None = None
+    which: Which | None = None
     planners: Annotated[tuple[PlannerName, ...], MinLen(1), MaxLen(MAX_PLANNERS)] | None = None
     """the planners that are asked about, where not all of them"""
     planner: PlannerName | None = None
@@ -97,6 +118,12 @@ class Ask:
                 raise ValueError(f"a question about {self.about} needs '{key}'")
         if self.about == "setting" and self.parameter in get_args(Choosable):
             raise ValueError(f"'{self.parameter}' has options and no value")
+        if self.about == "scene" and self.count is not None and (self.count != 1 or self.kind is None):
+            raise ValueError("a question about the scene counts one thing, the nearest of a kind")
+        if self.about == "what_if" and (self.change is None) is (self.move is None):
+            raise ValueError("say exactly one of 'change' and 'move'")
+        if sum(each is not None for each in (self.tick, self.ticks, self.seconds)) > 1:
+            raise ValueError("say one of 'tick', 'ticks' and 'seconds'")
         if self.what is not None:
             self._check_what(self.what)
         _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))
@@ -105,6 +132,8 @@ class Ask:
         """Raise `ValueError` unless `what` belongs to the question and all is named that it needs."""
         if what not in WHATS[self.about]:
             raise ValueError(f"'{what}' does not belong to a question about {self.about}")
+        if self.about == "other":
+            return  # its keys do not depend on what is asked
         keys: Mapping[str, tuple[frozenset[str], ...]] = (
             HISTORY_KEYS if self.about == "history" else WHAT_KEYS
         )

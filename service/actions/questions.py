@@ -25,6 +25,9 @@ QuestionName = Literal[
     "styles",
     "changes",
     "pending",
+    "detail",
+    "other",
+    "pattern",
     "outlook",
     "blame",
     "planners",
@@ -35,8 +38,12 @@ BlameName = Literal["fault", "too_late", "foreseen", "avoidable"]
 """What about a crash is asked."""
 PlannersName = Literal["here", "compare", "character", "own"]
 """What about planners is asked; `own`: what this session's would have done where a person drove."""
-HistoryName = Literal["closest_call", "summary", "since", "between", "seen"]
+HistoryName = Literal["closest_call", "summary", "since", "between", "seen", "riskiest", "similar"]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
+OtherName = Literal["why", "going"]
+"""What of another road user is asked about: why it did what it did, or where it goes."""
+DetailName = Literal["shorter", "longer", "why", "before", "after"]
+"""How the last explanation is wanted again; before and after are the decisions next to it."""
 Choosable = Literal["view", "preference", "road", "layout"]
 """What has options beside the parameters."""
 Term = Literal[
@@ -122,11 +129,11 @@ class QuestionTraits:
 
 
 QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
-    "why": QuestionTraits(("move", "tick")),
-    "why_not": QuestionTraits(("move", "tick"), ("move",), runs_episodes=True),
-    "what_if": QuestionTraits(("change",), ("change",), runs_episodes=True),
+    "why": QuestionTraits(("move", "instead", "tick", "ticks", "seconds"), runs_episodes=True),
+    "why_not": QuestionTraits(("move", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
+    "what_if": QuestionTraits(("change", "move", "tick", "ticks", "seconds"), runs_episodes=True),
     "next": QuestionTraits(),
-    "scene": QuestionTraits(("kind",)),
+    "scene": QuestionTraits(("kind", "count")),
     "status": QuestionTraits(),
     "metrics": QuestionTraits(("metric",)),
     "confidence": QuestionTraits(runs_episodes=True),
@@ -135,10 +142,15 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "setting": QuestionTraits(("parameter", "value"), ("parameter",)),
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
-    "history": QuestionTraits(("what", "tick", "until", "ticks"), ("what",), runs_episodes=True),
+    "history": QuestionTraits(("what", "tick", "until", "ticks", "count"), ("what",), runs_episodes=True),
     "styles": QuestionTraits(),
     "changes": QuestionTraits(("count", "tick")),
     "pending": QuestionTraits(),
+    "detail": QuestionTraits(("how",), ("how",), runs_episodes=True),
+    "other": QuestionTraits(
+        ("what", "which", "move", "tick", "ticks", "seconds"), ("what", "which"), runs_episodes=True
+    ),
+    "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
     "outlook": QuestionTraits(("what", "move"), ("what",), runs_episodes=True),
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
     "planners": QuestionTraits(("what", "planners", "planner", "tick"), ("what",), runs_episodes=True),
@@ -146,6 +158,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
     "history": get_args(HistoryName),
+    "other": get_args(OtherName),
     "outlook": get_args(OutlookName),
     "blame": get_args(BlameName),
     "planners": get_args(PlannersName),
@@ -174,5 +187,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "since": (frozenset(("tick",)), frozenset(("ticks",))),
     "between": (frozenset(("tick", "until")),),
     "seen": (frozenset(("tick",)), frozenset(("ticks",))),
+    "riskiest": (frozenset(), frozenset(("tick", "until"))),
+    "similar": (frozenset(), frozenset(("tick",))),
 }
 """The ticks that a question about the past names, in each of the ways it can be said."""

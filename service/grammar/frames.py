@@ -55,6 +55,8 @@ class Frame:
     """Concept → the concept that must be there with it."""
     drops: frozenset[str] = frozenset()
     """Concepts that it takes although its actions do not say them: with them the request is the same."""
+    only: Mapping[str, Any] = field(default_factory=dict)
+    """Concept → the one value of it that it takes: advice is about what is ahead."""
     accepted: frozenset[str] = frozenset()
     """Every concept the frame has a use for."""
 
@@ -89,7 +91,7 @@ def read_frames(data: Mapping[str, Any]) -> list[Frame]:
 
 def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: Mapping[str, str]) -> Frame:
     known = {"say", "needs", "takes", "do", "per", "forms", "inherits", "joins", "verbless", "rank", "ask"}
-    known |= {"speaker", "leaves_out", "only_negated", "supposes", "last", "drops", "keeps"}
+    known |= {"speaker", "leaves_out", "only_negated", "supposes", "last", "drops", "keeps", "only"}
     if odd := set(data) - known:
         raise FrameError(f"frame {name}: no such fields: {', '.join(sorted(odd))}")
     many: set[str] = set()
@@ -114,6 +116,7 @@ def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: M
         speaker=bool(data.get("speaker", True)),
         agree=agree,
         drops=frozenset(_concepts(str(data.get("drops", "")), sets, set())),
+        only=data.get("only", {}),
         leaves_out=bool(data.get("leaves_out", False)),
         only_negated=bool(data.get("only_negated", False)),
         joins=bool(data.get("joins", False)),

@@ -39,7 +39,12 @@ class Crashes:
             told = plain(self._sayings, asked.ask, asked.timeline.state, self.not_so(error))
         else:
             texts = self._options.texts(crash.explanation.decision)
-            told = plain(self._sayings, asked.ask, asked.timeline.state, self.text(crash))
+            told = plain(
+                self._sayings,
+                asked.ask,
+                asked.timeline.state,
+                self.text(crash, detailed=asked.length == "longer"),
+            )
             told |= crash_json(crash, texts)
         return told | {"question": self._say("question" if tick is None else "question_at", tick=tick)}
 
