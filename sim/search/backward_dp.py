@@ -69,7 +69,7 @@ def _horizon(forecast: Forecast, terrain: TimeExpandedGraph, limit: int) -> int:
     for move, there in zip(MOVES, forecast.steps(1 << forecast.ego) if limit else (), strict=False):
         if not there:
             continue
-        found = reachability(forecast, there, limit - 1, after=1)
+        found = reachability(forecast, there, limit - 1, after=1, whole=False)
         if found.ticks is None:
             continue
         needed = on_shortest(forecast, found, after=1)
