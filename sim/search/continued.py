@@ -24,7 +24,8 @@ class Known:
     """What is known of the ticks of a forecast."""
 
     forecast: Forecast
-    weights: Weights
+    weights: Weights | None
+    """the charges it was searched with; None where they have no part in it"""
     limit: int
     """steps left at its beginning"""
     found: Any
@@ -49,7 +50,9 @@ def keep(search: str, known: Known) -> None:
     _STORE.latest.setdefault(search, deque(maxlen=KEPT)).appendleft(known)
 
 
-def continued(search: str, forecast: Forecast, weights: Weights, limit: int) -> tuple[Known, int] | None:
+def continued(
+    search: str, forecast: Forecast, weights: Weights | None, limit: int
+) -> tuple[Known, int] | None:
     """What is known of the ticks of a forecast, and how many ticks before it that begins; None: nothing."""
     if forecast.egos:
         return None

@@ -18,6 +18,7 @@ from sim.forecast import Forecast
 from sim.rules.ego_step import beside
 from sim.rules.grid_dynamics import GridDynamics
 from sim.rules.limits import steps_left as steps_left_of
+from sim.search.no_way_left import known_to_last, look_ahead, shut_in
 from sim.search.passages import locked_in, ways_past
 from sim.types import MOVES, Move
 from sim.world.grid import Board
@@ -138,28 +139,36 @@ def least_ticks_by_move(forecast: Forecast, limit: int) -> tuple[int | None, ...
     found: list[int | None] = []
     steps = _first_steps(forecast, limit)
     staying = forecast.after(Move.STAY)
+    foreseen = steps if staying is forecast else steps[:-1]
     hopeless: set[Board] = set()
-    for place, (move, there) in enumerate(zip(MOVES, steps, strict=True)):
+    if shut_in(forecast, _union(foreseen), limit):
+        hopeless.update(foreseen)
+    for move, there in zip(MOVES, steps, strict=True):
         expected = staying if move is Move.STAY else forecast
         if not there or (expected is forecast and there in hopeless):
             found.append(None)
             continue
-        ticks = reachability(expected, there, limit - 1, after=1, whole=False).ticks
-        found.append(None if ticks is None else ticks + 1)
-        if ticks is None and not hopeless:  # then mostly no other move leads on either
-            others = steps[place:] if staying is forecast else steps[place:-1]
+        way = reachability(expected, there, limit - 1, after=1, whole=False)
+        found.append(None if way.ticks is None else way.ticks + 1)
+        if way.ticks is None and not hopeless:  # then mostly no other move leads on either
             hopeless.add(there)
-            if not _any_leads_on(forecast, others, limit):
-                hopeless.update(others)
+            if expected is forecast and len(way.layers) == limit:
+                look_ahead(forecast, limit)
+            if shut_in(forecast, _union(foreseen), limit) or not _any_leads_on(forecast, foreseen, limit):
+                hopeless.update(foreseen)
     return tuple(found)
 
 
 def _any_leads_on(forecast: Forecast, starts: Sequence[Board], limit: int) -> bool:
     """Whether any of these first steps has a way on to the goal."""
-    together = 0
-    for start in starts:
-        together |= start
-    return reachability(forecast, together, limit - 1, after=1, whole=False).ticks is not None
+    return reachability(forecast, _union(starts), limit - 1, after=1, whole=False).ticks is not None
+
+
+def _union(boards: Sequence[Board]) -> Board:
+    found = 0
+    for board in boards:
+        found |= board
+    return found
 
 
 def longest_lasting(forecast: Forecast, limit: int) -> Move:
@@ -169,8 +178,13 @@ def longest_lasting(forecast: Forecast, limit: int) -> Move:
     """
     best, move = 0, Move.STAY
     safe = left_alone(forecast)
+    known = known_to_last(forecast, limit)
     for each, there in zip(MOVES, _first_steps(forecast, limit), strict=True):
-        lasts = _lasting(forecast.after(each), there, limit - 1, safe) + 1 if there else 0
+        expected = forecast.after(each)
+        lasts = 0
+        if there:
+            to_the_end = expected is forecast and there & known
+            lasts = limit if to_the_end else _lasting(expected, there, limit - 1, safe) + 1
         if lasts > best:
             best, move = lasts, each
         if best == limit:

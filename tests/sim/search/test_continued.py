@@ -26,8 +26,8 @@ def drives(planner: str, count: int) -> list[Timeline]:
             seed=draw.randrange(2**32),
             columns=draw.choice([5, 8]),
             rows=rows,
-            potholes=draw.choice([2, rows]),
-            vehicles=draw.choice([4, 2 * rows]),
+            potholes=draw.choice([2, rows, 2 * rows]),
+            vehicles=draw.choice([4, rows, 3 * rows // 2]),
             pedestrians=draw.choice([0, 3]),
             courtesy=draw.choice([0.0, 0.0, 0.5]),
             preferences=draw.choice([(), ("cautious",), ("fastest",)]),
@@ -37,7 +37,7 @@ def drives(planner: str, count: int) -> list[Timeline]:
     return made
 
 
-@pytest.mark.parametrize("planner", ["dijkstra", "astar"])
+@pytest.mark.parametrize("planner", ["bfs", "dijkstra", "astar"])
 def test_decisions_of_a_drive_are_those_of_each_moment_by_itself(planner: str) -> None:
     looked = 0
     for timeline in drives(planner, 30):
