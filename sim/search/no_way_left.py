@@ -16,6 +16,8 @@ from sim.world.grid import Board
 
 SHUT_IN: Final = "shut in"
 """The kind of search under which the sweeps are kept."""
+ASKED: Final = "asked while shut in"
+"""The kind under which it is kept what was asked about."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +43,16 @@ def look_ahead(forecast: Forecast, limit: int) -> None:
     arriving.append(0)  # of the present cell nothing is asked
     lasting.append(0)
     keep(SHUT_IN, Known(forecast, None, limit, Outlook(tuple(arriving[::-1]), tuple(lasting[::-1]))))
+
+
+def look_ahead_if_asked_again(forecast: Forecast, limit: int) -> None:
+    """Sweep back if a tick before was asked about already: then the ticks that follow are, too."""
+    if continued(SHUT_IN, forecast, None, limit) is not None:
+        return
+    if continued(ASKED, forecast, None, limit) is not None:
+        look_ahead(forecast, limit)
+    elif not forecast.egos:
+        keep(ASKED, Known(forecast, None, limit, None))
 
 
 def shut_in(forecast: Forecast, starts: Board, limit: int) -> bool:

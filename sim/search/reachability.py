@@ -18,7 +18,7 @@ from sim.forecast import Forecast
 from sim.rules.ego_step import beside
 from sim.rules.grid_dynamics import GridDynamics
 from sim.rules.limits import steps_left as steps_left_of
-from sim.search.no_way_left import known_to_last, look_ahead, shut_in
+from sim.search.no_way_left import known_to_last, look_ahead_if_asked_again, shut_in
 from sim.search.passages import locked_in, ways_past
 from sim.types import MOVES, Move
 from sim.world.grid import Board
@@ -148,13 +148,11 @@ def least_ticks_by_move(forecast: Forecast, limit: int) -> tuple[int | None, ...
         if not there or (expected is forecast and there in hopeless):
             found.append(None)
             continue
-        way = reachability(expected, there, limit - 1, after=1, whole=False)
-        found.append(None if way.ticks is None else way.ticks + 1)
-        if way.ticks is None and not hopeless:  # then mostly no other move leads on either
+        ticks = reachability(expected, there, limit - 1, after=1, whole=False).ticks
+        found.append(None if ticks is None else ticks + 1)
+        if ticks is None and not hopeless:  # then mostly no other move leads on either
             hopeless.add(there)
-            if expected is forecast and len(way.layers) == limit:
-                look_ahead(forecast, limit)
-            if shut_in(forecast, _union(foreseen), limit) or not _any_leads_on(forecast, foreseen, limit):
+            if not _any_leads_on(forecast, foreseen, limit):
                 hopeless.update(foreseen)
     return tuple(found)
 
@@ -178,6 +176,7 @@ def longest_lasting(forecast: Forecast, limit: int) -> Move:
     """
     best, move = 0, Move.STAY
     safe = left_alone(forecast)
+    look_ahead_if_asked_again(forecast, limit)
     known = known_to_last(forecast, limit)
     for each, there in zip(MOVES, _first_steps(forecast, limit), strict=True):
         expected = forecast.after(each)
