@@ -70,8 +70,8 @@ def main() -> None:
             counts["not said"] += said is None
             counts["perturbed, right"] += said == seen
             if options.wrong and said not in (None, seen):
-                print(f"seed {state.config.seed} tick {answer['tick']}: without {gone} said {said}, is {seen}; "
-                      f"made {answer['move']}, causes {[cause['group'] for cause in answer['causes']]}")  # fmt: skip
+                where = f"seed {state.config.seed} tick {answer['tick']}"
+                print(f"{where}: without {gone} said {said}, is {seen}; made {answer['move']}")
     said = counts["perturbed"] - counts["not said"]
     print(f"stated changes   {counts['stated']:>7}, right {counts['stated, right'] / counts['stated']:.4%}")
     right = counts["perturbed, right"] / said

@@ -1,30 +1,36 @@
 """Counts false sentences in very many explanations, by kind; each is checked by changing the road.
 
-python -m tools.false_sentences --decisions 2000
+python -m tools.false_sentences --decisions 20000 --crashes 400 --results counted.jsonl
+
+What has been counted is kept in the file of results, batch by batch, so that a count goes on where it was
+stopped. Dear checks are made of a part: see `THOROUGH` and `CHANCES`.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import random
+import sys
 from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
+from pathlib import Path
 
 from service.actions import Ask
 from service.narration.crash import Crashes
+from service.narration.what_if import WhatIfs
 from service.sessions.facts import Asked
 from sim.actions import Remove, Where
-from sim.config import Config
 from sim.explain import QuestionError, why, why_not
 from sim.explain.crash import why_crashed
+from sim.explain.what_if import what_if
 from sim.plan import traits_of
 from sim.session.timeline import Timeline
-from sim.state import SimState
-from sim.transition import step
-from sim.types import Move, Outcome
+from sim.types import Kind, Move, Outcome
 from tests.support import sentence_judge as judge
+from tests.support.chance_judge import hangs_on_chance, judge_stated
+from tests.support.judged_drives import crashes, drives
 
 SHARES = {"priority": 0.35, "rules": 0.30, "bfs": 0.13, "dijkstra": 0.11, "astar": 0.11}
 """How many of the decisions are whose."""
@@ -32,68 +38,21 @@ BATCH = 25
 CRASHES = "crashes"
 DRAWS = 4
 """Futures drawn to see whether it hangs on chance how it ends."""
-THOROUGH = 50
-"""Every so many decisions of a quick planner all changes up to two edits are tried out."""
-DENSITIES = ((4, 10, 0, 0), (12, 30, 3, 4), (25, 90, 6, 8), (40, 60, 4, 0))
-"""Potholes, vehicles, pedestrians and barriers on a road of 8 lanes and 30 rows."""
+THOROUGH = 500
+"""One of so many decisions of quick planners has all changes up to two edits tried out."""
+CHANCES = 20
+"""One of so many decisions has the chances that are stated of it held to futures drawn anew."""
+FURTHER = ("next", "confidence", "scene")
+"""Questions of which the wording is judged too, one for each decision."""
+
+Job = tuple[str, int, int]
+"""A planner or `CRASHES`, a seed, and how many."""
+Counted = tuple[Counter[str], Counter[str], list[str]]
+"""How many sentences were looked at, how many were false, and those."""
 
 
-def drives(count: int, seed: int, planner: str) -> Iterator[Timeline]:
-    """Timelines that have just taken a decision; some run on to a crash."""
-    draw, found = random.Random(f"{planner} {seed}"), 0
-    while found < count:
-        rows = 30 if planner in ("priority", "rules") else 12
-        potholes, vehicles, pedestrians, barriers = (
-            round(each * rows / 30) for each in draw.choice(DENSITIES)
-        )
-        config = Config(
-            seed=draw.randrange(2**32),
-            columns=8,
-            rows=rows,
-            potholes=potholes,
-            vehicles=vehicles,
-            pedestrians=pedestrians,
-            barriers=barriers,
-            courtesy=draw.choice([0.0, 0.5]),
-            planner=planner,
-        )
-        if planner in ("dijkstra", "astar") and draw.random() < 0.4:
-            config = config.with_parts(
-                preferences=draw.choice([("cautious",), ("fastest",), ("smooth_ride",)])
-            )
-        timeline = Timeline(config)
-        for _ in range(draw.randrange(1, rows)):
-            timeline.advance()
-            if timeline.state.world.outcome is Outcome.CRASH:
-                break
-        if timeline.at(timeline.tick - 1).world.outcome is Outcome.RUNNING:
-            found += 1
-            yield timeline
-
-
-def crashes(count: int, seed: int) -> Iterator[Timeline]:
-    """Timelines of dense roads on which nobody brakes, that have ended in a crash."""
-    draw, found = random.Random(f"crashes {seed}"), 0
-    while found < count:
-        config = Config(
-            seed=draw.randrange(2**32),
-            potholes=draw.choice([18, 25]),
-            vehicles=draw.choice([40, 90]),
-            pedestrians=6,
-            barriers=8,
-            attentive=0.0,
-            planner=draw.choice(["priority", "rules"]),
-        )
-        timeline = Timeline(config)
-        while timeline.state.world.outcome is Outcome.RUNNING:
-            timeline.advance()
-        if timeline.state.world.outcome is Outcome.CRASH:
-            found += 1
-            yield timeline
-
-
-def checked(job: tuple[str, int, int]) -> tuple[Counter[str], Counter[str], list[str]]:
-    """How many sentences were looked at, how many were false, and those."""
+def checked(job: Job) -> Counted:
+    """The count of a batch."""
     planner, seed, count = job
     looked, false, lines = Counter[str](), Counter[str](), []
     if planner == CRASHES:
@@ -104,12 +63,9 @@ def checked(job: tuple[str, int, int]) -> tuple[Counter[str], Counter[str], list
                     false[kind] += 1
                     lines.append(f"{kind} | seed {timeline.state.config.seed}: {wrong}")
         return looked, false, lines
-    draw = random.Random(seed)
-    for at, timeline in enumerate(drives(count, seed, planner)):
+    for at, timeline in enumerate(drives(count, seed, planner), BATCH * seed):
         looked["decisions"] += 1
-        for kind, found in _of_decision(
-            timeline, draw, thorough=traits_of(planner).quick and (BATCH * seed + at) % THOROUGH == 0
-        ):
+        for kind, found in _of_decision(timeline, at):
             looked[kind] += 1
             if found is not None:
                 false[kind] += 1
@@ -118,45 +74,63 @@ def checked(job: tuple[str, int, int]) -> tuple[Counter[str], Counter[str], list
     return looked, false, lines
 
 
-def _of_decision(timeline: Timeline, draw: random.Random, *, thorough: bool) -> judge.Judged:
-    sayings, explained, narrator = judge.reading()
+def _of_decision(timeline: Timeline, number: int) -> judge.Judged:
     state = timeline.at(timeline.tick - 1)
+    thorough = traits_of(state.config.planner).quick and number % THOROUGH == 0
+    yield from _of_why(timeline, thorough=thorough)
+    yield from _of_why_not(timeline, number, thorough=thorough)
+    if timeline.state.world.outcome is Outcome.RUNNING and timeline.state.world.count(Kind.VEHICLE):
+        yield from _of_what_if(timeline, number)
+    if timeline.state.world.outcome is Outcome.CRASH:
+        yield from _of_crash(timeline)
+    else:
+        _, _, narrator = judge.reading()
+        about = FURTHER[number % len(FURTHER)]
+        yield from judge.judge_wording(narrator.answer(Asked(Ask(about=about), timeline))["text"])  # type: ignore[arg-type]
+
+
+def _of_why(timeline: Timeline, *, thorough: bool) -> judge.Judged:
+    sayings, explained, narrator = judge.reading()
     explanation = why(timeline)
-    decision = explanation.decision
-    sayings.recorded()
     text = explained.text(explanation)
     named = sayings.recorded()
     yield from judge.judge_comes_first(explanation, text)
     yield from judge.judge_groups(explanation, thorough=thorough)
     yield from judge.judge_left_out(explanation, text, named)
+    yield from judge.judge_chain(explanation)
     yield from judge.judge_wording(text)
-    line = narrator.decision(decision, state)
-    yield from judge.judge_narration(state, decision, line, sayings.recorded())
-    foil = draw.choice([move for move in Move if move is not decision.move])
-    other = why_not(timeline, foil)
-    text = explained.text(other)
-    yield from judge.judge_comes_first(other, text)
-    yield from judge.judge_change(other, text, thorough=thorough)
-    yield from judge.judge_chance(state, text, ends_differ=_hangs_on_chance(state))
-    yield from judge.judge_wording(text)
-    if state.world.movers:
-        change = (Remove(kind="vehicle", count=1, where=Where(nearest=True)),)
-        told = narrator.answer(Asked(Ask(about="what_if", change=change), timeline))["text"]
-        yield from judge.judge_chance(state, told, ends_differ=_hangs_on_chance(timeline.state))
-        yield from judge.judge_wording(told)
-    if timeline.state.world.outcome is Outcome.CRASH:
-        yield from _of_crash(timeline)
+    line = narrator.decision(explanation.decision, explanation.moment)
+    yield from judge.judge_narration(explanation.moment, explanation.decision, line, sayings.recorded())
 
 
-def _hangs_on_chance(state: SimState) -> bool:
-    """Whether different draws of who gives way lead to different ends."""
-    ends = set()
-    for seed in range(DRAWS if state.config.courtesy else 0):
-        drawn = replace(state, config=state.config.with_parts(seed=state.config.seed + seed))
-        while drawn.world.outcome is Outcome.RUNNING:
-            drawn = step(drawn).state
-        ends.add((drawn.world.outcome, drawn.world.tick))
-    return len(ends) > 1
+def _of_why_not(timeline: Timeline, number: int, *, thorough: bool) -> judge.Judged:
+    _, explained, _ = judge.reading()
+    state = timeline.at(timeline.tick - 1)
+    made = timeline.decision(timeline.tick - 1)
+    assert made is not None
+    foil = random.Random(number).choice([move for move in Move if move is not made.move])
+    explanation = why_not(timeline, foil)
+    text = explained.text(explanation)
+    yield from judge.judge_comes_first(explanation, text)
+    yield from judge.judge_change(explanation, text, thorough=thorough)
+    yield from judge.judge_chance(state, text, ends_differ=hangs_on_chance(state, DRAWS))
+    yield from judge.judge_wording(text)
+    stakes = explanation.stakes
+    if number % CHANCES == 0 and stakes is not None and stakes.by_chance:
+        yield from judge_stated(state, foil, stakes.would_chances, text)
+        yield from judge_stated(state, made.move, stakes.real_chances, text)
+
+
+def _of_what_if(timeline: Timeline, number: int) -> judge.Judged:
+    sayings, _, _ = judge.reading()
+    change = (Remove(kind="vehicle", count=1, where=Where(nearest=True)),)
+    found = what_if(timeline, change)
+    text = WhatIfs(sayings).text(Ask(about="what_if", change=change), found)
+    yield from judge.judge_chance(found.state, text, ends_differ=hangs_on_chance(found.state, DRAWS))
+    yield from judge.judge_wording(text)
+    if number % CHANCES == 0 and found.by_chance:
+        yield from judge_stated(found.state, None, found.real_chances, text)
+        yield from judge_stated(found.done[-1].state, None, found.changed_chances, text)
 
 
 def _of_crash(timeline: Timeline) -> judge.Judged:
@@ -171,37 +145,60 @@ def _of_crash(timeline: Timeline) -> judge.Judged:
     yield from judge.judge_wording(text)
 
 
-def main() -> None:
-    """Print the figures."""
+def jobs_of(decisions: int, accidents: int) -> list[Job]:
+    """The batches, so mixed that any beginning of them holds every planner."""
+    jobs = [
+        (planner, seed, min(BATCH, round(decisions * share) - done))
+        for planner, share in SHARES.items()
+        for seed, done in enumerate(range(0, round(decisions * share), BATCH))
+    ]
+    jobs += [
+        (CRASHES, seed, min(BATCH, accidents - done)) for seed, done in enumerate(range(0, accidents, BATCH))
+    ]
+    many = Counter(job[0] for job in jobs)
+    return sorted(jobs, key=lambda job: (job[1] / many[job[0]], job[0]))
+
+
+def counted(jobs: list[Job], results: Path | None, processes: int) -> Iterator[Counted]:
+    """The counts of all batches; those that are in the file of results are read, and the others written."""
+    known: dict[Job, Counted] = {}
+    if results is not None and results.exists():
+        for line in results.read_text(encoding="utf-8").splitlines():
+            job, looked, false, lines = json.loads(line)
+            known[tuple(job)] = Counter(looked), Counter(false), lines  # type: ignore[index]
+    yield from (known[job] for job in jobs if job in known)
+    left = [job for job in jobs if job not in known]
+    with ProcessPoolExecutor(processes) as pool:
+        for job, found in zip(left, pool.map(checked, left), strict=True):
+            if results is not None:
+                with results.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps([job, *found]) + "\n")
+            yield found
+
+
+def main() -> int:
+    """Print the figures; 1 where a sentence is false."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--decisions", type=int, default=2_000)
     parser.add_argument("--crashes", type=int, default=100)
     parser.add_argument("--show", type=int, default=2, help="false sentences of each kind to print")
+    parser.add_argument("--results", type=Path, help="where counts are kept, and read to go on from")
+    parser.add_argument("--processes", type=int, default=1)
     options = parser.parse_args()
-    jobs = [
-        (planner, seed, min(BATCH, round(options.decisions * share) - done))
-        for planner, share in SHARES.items()
-        for seed, done in enumerate(range(0, round(options.decisions * share), BATCH))
-    ]
-    jobs += [
-        (CRASHES, seed, min(BATCH, options.crashes - done))
-        for seed, done in enumerate(range(0, options.crashes, BATCH))
-    ]
     looked, false, shown = Counter[str](), Counter[str](), Counter[str]()
-    lines: list[str] = []
-    with ProcessPoolExecutor(2) as pool:
-        for each, wrong, told in pool.map(checked, jobs):
-            looked += each
-            false += wrong
-            lines += told
+    jobs = jobs_of(options.decisions, options.crashes)
+    for each, wrong, told in counted(jobs, options.results, options.processes):
+        looked += each
+        false += wrong
+        for line in told:
+            kind = line.partition(" | ")[0]
+            shown[kind] += 1
+            if shown[kind] <= options.show:
+                print(line, flush=True)
     for kind in sorted(looked):
         print(f"{kind:<42}{false[kind]:>7} of {looked[kind]}")
-    for line in lines:
-        kind = line.partition(" | ")[0]
-        shown[kind] += 1
-        if shown[kind] <= options.show:
-            print(line)
+    return int(false.total() > 0)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

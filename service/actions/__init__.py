@@ -11,6 +11,7 @@ from service.actions.action import (
     Forget,
     Phrase,
     Teach,
+    Which,
     dump,
     load,
 )
@@ -88,6 +89,7 @@ __all__ = [
     "Undo",
     "ViewName",
     "Where",
+    "Which",
     "dump",
     "load",
 ]

@@ -58,10 +58,10 @@ _PARTS = frozenset((NUMBER, "part_of", "factor"))
 _THINGS = ("noun.thing.one", "noun.thing.many")
 
 
-def withhold(lattice: Lattice, free: Set[str]) -> None:
+def withhold(lattice: Lattice, free: Set[str], idle: Set[str]) -> None:
     """Take the markers out of a lattice that was just scanned, and what they cannot be where they stand.
 
-    `free` are the concepts that frames take without a use for them.
+    `free` are the concepts that frames take without a use for them, `idle` those that no frame has one for.
     """
     if lattice.concepts.isdisjoint(MARKERS):
         return
@@ -76,7 +76,7 @@ def withhold(lattice: Lattice, free: Set[str]) -> None:
         end = _operand(lattice, marker)
         if end is None:
             continue
-        loose = _loose(lattice, marker, free)
+        loose = _loose(lattice, marker, idle if marker.concept in (AMOUNT, PHRASE) else free)
         if loose:
             lattice.withheld.append(Withheld(marker.start, end, tuple(loose)))
     for each in lattice.withheld:
@@ -160,7 +160,8 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
     )
     if marker.concept in (AMOUNT, MEASURE):
         passed = free | {GLUE}
-        return [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
+        before = [e for e in _ending_with(lattice, marker) if e.concept == GLUE]  # "time to 3 ticks"
+        return before + [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
     loose = free | {GLUE, SECOND}
     if marker.concept == PHRASE:  # its first word decides: "in the rain", but "bring in the rain"
         here = [edge for edge in lattice.edges[marker.start] if edge.end <= marker.end]

@@ -15,7 +15,7 @@ from service.grammar.frames import Filled
 from service.grammar.lattice import Edge
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
-from sim.types import ego_id, is_ego, kind_of
+from sim.types import Kind, ego_id, is_ego, kind_of
 
 _ABSENT = object()
 _MEASURES = ("number", "length", "speed", "seconds", "fraction", "times", "cells")
@@ -175,6 +175,8 @@ class _Maker:
                 return next((count for count in steps if count is not None), 1)
             case "first" | "second":
                 return self._one_of_two(name)
+            case "which":
+                return self._which(turn)
             case "becomes":
                 return self._becomes()
             case "ego_named":
@@ -210,6 +212,23 @@ class _Maker:
         thing = things[0 if which == "first" else 1]
         where = {} if thing.where is None else {"where": thing.where}
         return {"kind": thing.kind, **where}
+
+    def _which(self, turn: Edge | None) -> dict[str, Any]:
+        """The road user that is asked about; a car without a place or an id would be the vehicle itself."""
+        edges = [turn] if turn is not None else self._filled.of("thing")
+        if len(edges) != 1 or not isinstance(edges[0].sense.value, Amount):
+            raise CannotBuild("not one road user")
+        amount, form = edges[0].sense.value, edges[0].concept.partition(".")[2]
+        if amount.ids:
+            return {"id": amount.ids[0]}
+        kind, where = amount.of, self.where() or {}
+        if Kind(kind).fixed or amount.count not in (None, 1):
+            raise CannotBuild("what does not move, or several")
+        if form in ("that", "nearest") and not where:
+            where = {"nearest": True}
+        if not where and (form != "the_one" or Kind(kind) is not Kind.PEDESTRIAN):
+            raise CannotBuild("no one in particular")
+        return {"kind": kind, **where}
 
     def _ego(self) -> str:
         """The id of the ego that is named, by its id or its number in order."""

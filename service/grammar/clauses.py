@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from service.grammar.composition import Composition, Matcher, asks, within
-from service.grammar.fragments import BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, Fragment
+from service.grammar.fragments import AND, BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, THEN, Fragment
 from service.grammar.frames import Filled
 from service.grammar.lattice import NUMBER, Edge, Lattice
 from service.grammar.lexicon import Sense
@@ -34,6 +34,8 @@ _FURTHER = ("more", "another")
 _PLACED = ("place", "side", "length")
 
 CONTRAST = "contrast"
+ADD = "add"
+SCENARIO = "scenario"
 EVERYTHING = "everything"
 
 
@@ -91,7 +93,11 @@ class Divider:
         at = 0
         while at < len(parts):
             clause, used = self._next(parts, at, context)
-            if clause is None:
+            if clause is not None and at + used < len(parts) and self._either_way(parts, at, used):
+                clause, at = None, at + used
+            if clause is None or (
+                divided.clauses and self._says_twice(divided.clauses[-1], clause, parts[at])
+            ):
                 divided.failed = parts[at]
                 return divided
             divided.clauses.append(replace(clause, after=parts[at].after))
@@ -105,26 +111,60 @@ class Divider:
         while True:
             clause, used = self._join(parts[:end], at, context)
             if clause is None:
-                return self._single(parts[at], context), 1
+                return self._first_of_two(parts[:end], at, context)
             if not clause.actions:  # it says only what not to do, or asks for itself
                 return clause, used
             said = parts[at : at + used]
+            asked = self._composition.first_question(clause.actions, said)
+            if asked is not None:
+                end = at + max(asked, 1)
+                continue
             heads = self._composition.heads(clause.filled, said)
             if not heads:
                 swallowed = self._composition.swallows((clause.filled, clause.actions), said)
                 return (self._or_apart(clause, said, context) if swallowed else clause), used
             apart = self._requests(said, heads, context)
             if apart is None or _same(apart, clause):
-                return clause, used
+                swallowed = self._composition.swallows((clause.filled, clause.actions), said[: heads[0]])
+                return (self._or_apart(clause, said, context) if swallowed else clause), used
             own = self._composition.verb_of_its_own(said[0]) is not None
             optional = _optional(clause, apart)
             leans = bool(context.verb) and self._composition.alone(said[0]) is None
-            if not (own or optional or context.verb):
+            if not (own or optional or context.verb) and said[heads[-1]].after in (PAUSE, AND):
                 return clause, used
-            if own or said[heads[0]].after == STOP or (optional and leans):
-                end = at + heads[0]
+            if own or said[heads[-1]].after not in (PAUSE, AND) or (optional and leans):
+                end = at + heads[-1]
                 continue
             return replace(clause, instead=tuple(apart)), used
+
+    def _first_of_two(
+        self, parts: Sequence[Fragment], at: int, context: Context
+    ) -> tuple[Clause | None, int]:
+        """A part as a clause; one that only begins the sentence that it stands in goes with the next part."""
+        part = parts[at]
+        if not (at and context.verb):
+            return self._single(part, context), 1
+        if self._describes_hazard(parts, at):
+            return None, 1
+        if not self._begins_request(parts, at):
+            return self._single(part, context), 1
+        both = self._stretches.make(part.start, parts[at + 1].end, joined=True)
+        found = self._matcher.match(both, verbless=False)
+        if found is None or part.after not in (STOP, THEN):
+            return None, 1
+        return Clause(part.start, parts[at + 1].end, *found), 2
+
+    def _describes_hazard(self, parts: Sequence[Fragment], at: int) -> bool:
+        """Whether a part that may lean is a question with the next: "pothole 2 m ahead, speed 40 km/h"."""
+        if (
+            at + 1 == len(parts)
+            or parts[at + 1].after != PAUSE
+            or self._composition.verb_of_its_own(parts[at])
+        ):
+            return False
+        both = self._stretches.make(parts[at].start, parts[at + 1].end, joined=True)
+        found = self._matcher.match(both)
+        return found is not None and asks(found[1])
 
     def _requests(
         self, parts: Sequence[Fragment], heads: Sequence[int], context: Context
@@ -155,7 +195,8 @@ class Divider:
         if len(apart) < len(parts):
             found = self._requests(parts, range(1, len(parts)), context)
             apart = [one for each in found or () for one in each.instead or (each,)]
-        if not apart or _same(apart, clause) or not _optional(clause, apart):
+        stops = any(part.after == STOP for part in parts[1:])
+        if not apart or _same(apart, clause) or not (stops or _optional(clause, apart)):
             return clause
         return replace(clause, instead=tuple(apart))
 
@@ -181,6 +222,30 @@ class Divider:
                 if leaning is not None:
                     return Clause(start, stop, *leaning), end - at
         return None, 0
+
+    def _either_way(self, parts: Sequence[Fragment], first: int, used: int) -> bool:
+        """Whether a part may belong to the request before it as well as to the one after it."""
+        at = first + used
+        if used > 1 and parts[at - 1].after == PAUSE and self._begins_request(parts, at - 1):
+            return True
+        if (
+            parts[at].after == PAUSE
+            or parts[at].after not in _TOGETHER
+            or not self._begins_request(parts, at)
+        ):
+            return False
+        before = self._stretches.make(parts[first].start, parts[at].end, joined=True)
+        return self._matcher.match(before, verbless=False) is not None
+
+    def _says_twice(self, before: Clause, clause: Clause, part: Fragment) -> bool:
+        """Whether a part without a verb would be in the scenario before it, which has that already."""
+        if part.after not in (PAUSE, AND) or self._composition.verb_of_its_own(part) is not None:
+            return False
+        said = {key for action in before.actions if action["do"] == SCENARIO for key in action}
+        return any(
+            action["do"] == ADD and "where" not in action and f"{action['kind']}s" in said
+            for action in clause.actions
+        )
 
     def _begins_request(self, parts: Sequence[Fragment], at: int) -> bool:
         """Whether a part only begins the sentence that it stands in: "10 metres ahead, add a cone"."""
@@ -213,6 +278,8 @@ class Divider:
         plain = self._stretches.make(start, end)
         found = self._matcher.match(plain, verbless=False)
         if found is not None:
+            if found[0].frame.leaves_out and self._takes_out(part, context):
+                return None
             clause = Clause(start, end, *found, negated=found[0].frame.leaves_out)
             belongs = self._composition.also_leans(part, found, context)
             return clause if belongs is None else replace(clause, instead=(Clause(start, end, *belongs),))
@@ -323,6 +390,11 @@ class Divider:
         said = list(self._lattice.between(part.start, part.end))
         if any(edge.concept.startswith("v.") for edge in said):
             return False
+        return self._takes_out(part, context)
+
+    def _takes_out(self, part: Fragment, context: Context) -> bool:
+        """Whether the things it names are among those that were said to be all: "…, but keep the cones"."""
+        said = list(self._lattice.between(part.start, part.end))
         kinds = {edge.sense.value.of for edge in said if isinstance(edge.sense.value, Amount)}
         whole = context.noun is not None and context.noun.concept.endswith(_WHOLE)
         return context.everything or (
@@ -340,6 +412,7 @@ def _context(clause: Clause, before: Context) -> Context:
     amounts = [edge for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)]
     noun = amounts[-1] if amounts else before.noun
     everything = any(edge.sense.concept == EVERYTHING for edge in clause.filled.slots)
+    everything = everything or any(action.get("kind") == EVERYTHING for action in clause.actions)
     last = max(clause.filled.slots, key=lambda edge: edge.end, default=None)
     placed = last is not None and last.concept in _PLACED
     return Context(

@@ -159,6 +159,7 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "why", "move": move}
     for kind in PLACEABLE:
         yield {"do": "ask", "about": "scene", "kind": kind}
+        yield {"do": "ask", "about": "scene", "kind": kind, "count": 1}
     for metric in get_args(MetricName):
         yield {"do": "ask", "about": "metrics", "metric": metric}
     yield {"do": "ask", "about": "what_if", "change": [{"do": "add", "kind": "pothole", "count": 5}]}

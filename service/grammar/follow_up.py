@@ -23,6 +23,9 @@ from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before
 from service.grammar.sentences import Unsayable
 from service.grammar.setting_talk import read_of_setting
+from service.grammar.short_talk import read_short
+from service.grammar.same_request import to_other_things
+from service.grammar.thing_talk import read_asked, read_of_things
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
@@ -50,6 +53,8 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
         of_setting = read_of_setting(language, text, topic, parsed)
         if of_setting is not None:
             return of_setting
+    if alone and (said := read_short(language, text, topic) or read_asked(language, text, topic)):
+        return said
     if not topic.actions or topic.undone:
         return _completed(language, text, topic, parsed)
     if isinstance(parsed, Understood) and _takes_the_place(language, text, topic, parsed):
@@ -69,7 +74,8 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     except BudgetExceededError:
         return parsed
     if alone:
-        return found or _completed(language, text, topic, parsed)
+        of_things = None if leaning.corrects else read_of_things(language, text, topic)
+        return found or of_things or _completed(language, text, topic, parsed)
     assert isinstance(parsed, Understood)
     return _after_question(language, leaning, found, parsed)
 
@@ -143,6 +149,8 @@ class _Leaning:
         self.done = topic.actions
         asked = all(traits_of(action).is_question for action in topic.actions)
         self._asks_on = asked and text.rstrip().endswith("?")
+        self.corrects = self._answers.beginning(self._tokens, CORRECTS) > 0
+        """whether it begins as what corrects the last request"""
         self.goes_on = follows > 0
         """whether it begins as what goes on with the last request"""
         self.short = len(self._tokens) - follows <= MAX_SHORT
@@ -161,12 +169,12 @@ class _Leaning:
         numbers = {at: found for at in range(min(len(tokens), MAX_SHORT)) if (found := read(tokens, at))}
         follows = answers.beginning(tokens, FOLLOWS)
         corrects = answers.beginning(tokens, CORRECTS, numbers)
-        instead = answers.ending(tokens, INSTEAD)
-        if not (follows or corrects or instead or self._asks_on):
+        instead, too = answers.ending(tokens, INSTEAD), answers.ending(tokens, TOO)
+        if not (follows or corrects or instead or too or self._asks_on):
             return None
         correcting = bool(corrects > follows or instead)
         start = corrects if corrects > follows else follows
-        rest = tokens[start : len(tokens) - max(instead, answers.ending(tokens, TOO))]
+        rest = tokens[start : len(tokens) - max(instead, too)]
         if not rest:
             return None
         done = self._topic.actions
@@ -177,6 +185,8 @@ class _Leaning:
         base = said_before(self._language, self._topic, self._work)
         if base is None or not all(traits_of(action).amendable for action in done):
             return None
+        if (other := to_other_things(self._language, self._written(rest), self._spoken_of, done)) is not None:
+            return Understood(self._text, self._whole(other, correcting))
         meant = self._amended(base, done, rest, goes_on=not correcting)
         meant = meant or self._elsewhere(done, rest)
         if meant is not None:

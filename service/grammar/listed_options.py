@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from service.grammar.answer_words import CHOOSES, LAST
+from service.grammar.answer_words import CHOOSES, CORRECTS, LAST
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Understood
 from service.grammar.sentences import Unsayable
@@ -18,7 +18,8 @@ def choose_listed(language: Language, text: str, topic: Topic) -> Parse | None:
     tokens = tokenise(normalise(text), language.data.contractions)
     while tokens and not any(char.isalnum() for char in tokens[-1].text):
         tokens = tokens[:-1]
-    start = answers.beginning(tokens, CHOOSES)
+    corrects = answers.beginning(tokens, CORRECTS)
+    start = corrects + answers.beginning(tokens[corrects:], CHOOSES)
     rest = tokens[start:]
     found = {at: number for at in range(len(rest)) if (number := numbers.read(rest, at))}
     ordinals = {at: nth for at, token in enumerate(rest) if (nth := numbers.ordinal(token))}
@@ -28,7 +29,7 @@ def choose_listed(language: Language, text: str, topic: Topic) -> Parse | None:
     if not isinstance(place, int) or not 1 <= place <= len(topic.offered):
         return None
     actions = (topic.offered[place - 1],)
-    if start:
+    if start or not text.rstrip().endswith("?"):
         return Understood(text, actions)
     try:
         return Ambiguous(text, answers.shall, (Choice(language.sentence(actions), actions),))

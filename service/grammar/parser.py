@@ -37,7 +37,8 @@ from service.grammar.paths import ALLOWS, SEPARATOR
 from service.grammar.pointing import add_pointing
 from service.grammar.references import Unclear, add_referents
 from service.grammar.sentences import Sentences, Unsayable
-from service.grammar.small_talk import small_talk
+from service.grammar.small_talk import same_again, small_talk
+from service.grammar.spoken_tick import name_spoken_tick
 from service.grammar.subordinate import read_all
 from service.grammar.suggestions import Suggestions, meanings_of, turned_round
 from service.grammar.tokens import Token
@@ -138,8 +139,9 @@ class Reading:
         unknown = self._lattice.uncovered()
         if unknown:
             return self._refuse(self._stretches(unknown), (), unknown=unknown)
-        if asking and (manners := small_talk(self._lattice)):
+        if asking and (manners := small_talk(self._lattice) or same_again(self._lattice)):
             return Understood(self._text, load(manners), self._corrections)
+        name_spoken_tick(self._lattice, self._topic.tick)
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
         add_pointing(self._lattice)

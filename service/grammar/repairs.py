@@ -13,11 +13,13 @@ from collections.abc import Callable, Iterator, Sequence
 
 from service.actions import Action
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
+from service.grammar.noun_phrases import QUANTITY
 from service.grammar.parse_types import Choice, Understood
 from service.grammar.paths import SEPARATOR
 from service.grammar.span_patterns import REPAIR, SKIPPED, SpanPattern, ends_of_pieces, steps_of
 from service.grammar.tokens import Token
 from service.grammar.work_budget import WorkBudget
+from sim.actions import Add
 
 ALWAYS = "always"
 """Value of those that do wherever they stand: "I mean"."""
@@ -33,6 +35,9 @@ NUMBERS = "numbers"
 
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
+
+_DEFINITE = ("that", "those", "the", "of_the", "nearest", "all", "every", "both")
+"""Quantities of things that are on the road already."""
 
 _ALIKE = (
     ("add", "remove", "set_count", "scenario"),
@@ -118,9 +123,18 @@ class Repair:
             before = self._written(0, self._edge.start if end < self._tail else self._end)
             text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
             parsed = read(text)
-            if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in found):
+            if not isinstance(parsed, Understood) or (self._points(end) and _adds(parsed.actions)):
+                continue
+            if all(c.actions != parsed.actions for c in found):
                 found.append(Choice(text, parsed.actions))
         return found
+
+    def _points(self, end: int) -> bool:
+        """Whether what is dropped are things on the road: "instead of that cone" is more than not to add one."""
+        return any(
+            edge.concept == QUANTITY and edge.sense.value in _DEFINITE
+            for edge in self._lattice.between(self._again, end)
+        )
 
     def _stands_elsewhere(self, end: int) -> bool:
         """Whether something of the same pattern as what is dropped is kept; else too much is dropped."""
@@ -227,6 +241,11 @@ class Repair:
 
     def _written(self, start: int, end: int) -> str:
         return self._plain[self._tokens[start].start : self._tokens[end - 1].end] if start < end else ""
+
+
+def _adds(actions: Sequence[Action]) -> bool:
+    """Whether something is put on the road."""
+    return any(isinstance(action, Add) for action in actions)
 
 
 def _as_many(found: list[Choice], as_said: object) -> list[Choice]:

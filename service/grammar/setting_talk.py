@@ -76,7 +76,7 @@ def read_of_setting(language: Language, text: str, topic: Topic, parsed: Parse) 
 
 def _about_settings(actions: Sequence[Action], *, explained: bool) -> bool:
     if explained:
-        return all(isinstance(action, Ask) and action.about == "term" for action in actions)
+        return all(isinstance(action, Ask) and action.about in ("term", "setting") for action in actions)
     return all(
         isinstance(action, Set | Adjust)
         or (isinstance(action, Ask) and action.about in ("setting", "term", "options"))
@@ -109,7 +109,11 @@ def _in_full(
         if end > at:
             before = plain[rest[0].start : rest[at].start]
             after = plain[rest[end - 1].end : rest[-1].end]
-            for named in (*_value_names(language, spoken_of), name):
+            for named in (
+                *_value_names(language, spoken_of),
+                name,
+                answers.setting_named.format(setting=name),
+            ):
                 yield f"{before}{named}{after}"
     asked = isinstance(topic.actions[0], Ask) or text.rstrip().endswith("?")
     if start and asked and answers.setting_asked:

@@ -61,7 +61,8 @@ class Next:
             if detour is not None and detour.ids and detour.ids == named:
                 detour = None  # they have been spoken of
             metres = (rows[start] - rows[done]) * way.state.config.cell_m
-            told.append(self._move(move, len(members), metres, detour, naming))
+            seconds = len(members) * way.state.config.step_seconds
+            told.append(self._move(move, (len(members), metres, seconds), detour, naming))
             named = named if detour is None else detour.ids
         said = self._sayings.chained(told, self._say("then"))
         if way.outcome is Outcome.SUCCESS:
@@ -74,10 +75,14 @@ class Next:
             return self._say("stuck_again" if ticks <= way.state.config.max_ticks else "stuck", way=said)
         return said
 
-    def _move(self, move: Move, count: int, metres: float, detour: Detour | None, naming: Naming) -> str:
-        """`metres`: how far the moves lead along the road."""
+    def _move(
+        self, move: Move, extent: tuple[int, float, float], detour: Detour | None, naming: Naming
+    ) -> str:
+        """`extent`: how many such moves, how many metres they lead along the road, and their seconds."""
+        count, metres, seconds = extent
         form = "one" if count == 1 else "many"
-        said = self._say("moves", move, form, count=count, metres=self._sayings.number(metres))
+        number = self._sayings.number
+        said = self._say("moves", move, form, count=count, metres=number(metres), seconds=number(seconds))
         if detour is None:
             return said
         key = "stays" if move is Move.STAY and detour.ids else detour.sake

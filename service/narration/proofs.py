@@ -43,7 +43,7 @@ class Proofs:
         told = dict.fromkeys(self._stand_in(cause, moves[cause.group]) for cause in others)
         room = max(1, MOST_TOLD - len(alone))
         parts += [Part(3 + at, text) for at, text in enumerate(list(told)[:room])]
-        return [*parts, Part(2, self._untried())]
+        return [*parts, Part(1, self._untried())]
 
     def _alone(self, alone: list[Cause], moves: dict[tuple[str, ...], Move], *, sole: bool) -> str:
         """What each flips the move by itself: up to three, and how many more."""
@@ -78,9 +78,12 @@ class Proofs:
         return self._say("together", one=one, who=who, do=do)
 
     def _chain(self) -> str:
-        """That what stood in the way did so only because of something else."""
-        links = dict.fromkeys((link.blocker, link.by) for link in self._explanation.chain)
-        told = [self._say("held", who=self._name(who), by=self._name(by)) for who, by in links]
+        """That what stood in the way did so only because of something else, or what would be there else."""
+        links = dict.fromkeys((link.blocker, link.by, link.behind) for link in self._explanation.chain)
+        told = [
+            self._say("behind" if behind else "held", who=self._name(who), by=self._name(by))
+            for who, by, behind in links
+        ]
         return " ".join(told[:1])
 
     def _untried(self) -> str:

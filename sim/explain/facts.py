@@ -62,11 +62,13 @@ class Cause:
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """Something that stood in the way of a move because of another thing; without that it is not there."""
+    """What another thing has to do with something that stood in the way of a move."""
 
     blocker: str
     by: str
+    """without it the blocker is not in the way; if `behind`, it is in the way itself without the blocker"""
     move: Move
+    behind: bool = False
 
 
 @dataclass(frozen=True, slots=True)

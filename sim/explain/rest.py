@@ -67,6 +67,8 @@ class Rest:
                 chain.append(link)
             elif name not in groups and (pair := _grouped(rerun, name, option, parts[:most], single)):
                 groups[name] = pair
+            elif name not in groups and (link := _behind(rerun, name, option, by)) is not None:
+                chain.append(link)
         return Rest(groups, tuple(chain), tuple(further.untried))
 
 
@@ -132,6 +134,13 @@ def _held_by(rerun: Intervention, name: str, option: Option, by: Iterable[str]) 
         if name not in without.option(option.move).causes:
             return Link(name, other, option.move)
     return None
+
+
+def _behind(rerun: Intervention, name: str, option: Option, by: Iterable[str]) -> Link | None:
+    """Which of these would be in the way of a move, were the thing that is in its way gone."""
+    met = rerun.decision_without([name]).option(option.move).causes
+    other = next((other for other in by if other != name and other in met), None)
+    return None if other is None else Link(name, other, option.move, behind=True)
 
 
 def _grouped(

@@ -1,4 +1,4 @@
-"""A program that reads only the structured part of explanations predicts decisions, or says that it cannot."""
+"""A program that reads only explanations predicts decisions, or says that it cannot."""
 
 from __future__ import annotations
 

@@ -197,8 +197,18 @@ def judge_left_out(explanation: Explanation, text: str, named: Collection[str]) 
     yield kind, f"{out}: {text}" if out and not said else None
     if named and fact is not Move.FORWARD:
         members = {name for cause in explanation.causes for name in cause.group} | told
-        chained = {link.blocker for link in getattr(explanation, "chain", ())}
+        chained = {link.blocker for link in explanation.chain}
         yield "4 blocker is no cause", None if {*named} & (members | chained) else f"{named}: {text}"
+
+
+def judge_chain(explanation: Explanation) -> Judged:
+    """What is said to be in the way only because of another thing, or to hide one, is and does."""
+    state = explanation.moment
+    for link in explanation.chain:
+        gone, met = (link.blocker, link.by) if link.behind else (link.by, link.blocker)
+        after = decided(state, taking([gone], state.config))
+        there = after is not None and met in after.option(link.move).causes
+        yield "4 chain that is none", None if there is link.behind else f"{link}"
 
 
 def judge_chance(state: SimState, text: str, *, ends_differ: bool) -> Judged:

@@ -33,7 +33,7 @@ def explanation_json(explanation: Explanation, texts: Sequence[str]) -> Json:
             "minimal": verified.minimal,
         },
         "counterfactual": flips[0] if flips else None,
-        "stakes": None if explanation.stakes is None else _stakes_json(explanation.stakes),
+        "stakes": None if explanation.stakes is None else stakes_json(explanation.stakes),
         "evidence": {
             "counterfactuals": flips,
             "reruns": explanation.reruns,
@@ -111,7 +111,8 @@ def _flip_json(flip: Counterfactual, tick: int) -> Json:
     return told | ({"undetected": flip.undetected} if flip.undetected else {})
 
 
-def _stakes_json(stakes: Alternatives) -> Json:
+def stakes_json(stakes: Alternatives) -> Json:
+    """A move that was not made, beside the one that was."""
     return {
         "foil": stakes.foil,
         "would": None if stakes.would is None else _future_json(stakes.would),
