@@ -228,6 +228,7 @@ def _rest() -> Iterator[dict[str, Any]]:
     for style in styles():
         yield {"do": "style", "style": style}
     yield {"do": "ask", "about": "styles"}
+    yield {"do": "ask", "about": "quiz"}
     yield {"do": "advise", "hazard": "pothole", "distance_m": 20, "speed_kmh": 50}
     yield {"do": "save", "name": "monday demo"}
     yield {"do": "load", "name": "monday demo"}
