@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 
@@ -15,9 +16,10 @@ from sim.explain.own_move import own_move
 from sim.explain.planners import planners_here
 from sim.explain.repair import repair, without
 from sim.explain.safe_move import safe_move
+from sim.repetition import NOTHING_KEPT
 from sim.session.timeline import Timeline
 from sim.state import SimState
-from sim.transition import next_world
+from sim.transition import next_world, step
 from sim.types import MOVES, Mode, Move, Outcome, kind_of
 from sim.world import World
 
@@ -45,10 +47,14 @@ def moments(count: int, **parts: object) -> Iterator[Timeline]:
 
 def driven(timeline: Timeline) -> World:
     """How the present episode of a session ends when it goes on; the session itself stays as it is."""
-    going = timeline.copy()
-    while going.state.world.outcome is Outcome.RUNNING:
-        going.advance()
-    return going.state.world
+    return ended(timeline.state)
+
+
+def ended(state: SimState) -> World:
+    """How an episode ends from a state on."""
+    while state.world.outcome is Outcome.RUNNING:
+        state = step(state).state
+    return state.world
 
 
 def some_way(state: SimState, arrive: bool) -> bool:
@@ -84,13 +90,12 @@ def test_a_move_is_safe_where_it_meets_nothing_and_driving_on_does_not_crash() -
                 assert not found.safe
                 continue
             there = next_world(state.world, (move,), state.config)
-            going = Timeline(state.config, state.with_ego(queue=(move,), mode=Mode.MANUAL))
             if there.outcome is Outcome.CRASH:
                 assert found.hit == there.cause
                 assert not found.safe
             elif there.outcome is Outcome.RUNNING:
-                going = Timeline(state.config, found.then.state if found.then else state)
-                assert found.safe is (driven(going).outcome is not Outcome.CRASH)
+                after = replace(state.with_ego(watch=NOTHING_KEPT), world=there)
+                assert found.safe is (ended(after).outcome is not Outcome.CRASH)
             verdicts.add(found.safe)
     assert verdicts == {True, False}
 
@@ -140,7 +145,7 @@ def test_a_crash_ahead_comes_and_what_avoids_it_leaves_a_way() -> None:
         state = going.state
         there = next_world(state.world, (last.instead,), state.config)
         assert there.outcome is not Outcome.CRASH
-        assert some_way(Timeline(state.config, SimState(state.config, there)).state, arrive=False)
+        assert some_way(SimState(state.config, there), arrive=False)
     assert ahead > 3
     assert avoided > 0
 
@@ -177,8 +182,7 @@ def test_a_change_that_helps_does_and_no_smaller_one_does(aim: str) -> None:
             assert driven(going).outcome in wanted
             for id in found.removed if len(found.removed) > 1 else ():
                 rest = tuple(each for each in found.removed if each != id)
-                fewer = Timeline(timeline.config, without(timeline.state, rest))
-                assert driven(fewer).outcome not in wanted
+                assert ended(without(timeline.state, rest)).outcome not in wanted
         if found.planner is not None:
             going = timeline.copy()
             going.apply(1, [Set(parameter="planner", value=found.planner.planner)])  # type: ignore[arg-type]
@@ -195,7 +199,7 @@ def test_every_planner_does_here_what_it_does_when_it_is_set() -> None:
             first = going.advance().decision
             assert first is not None
             assert first.move is drive.first
-            end = driven(going) if going.state.world.outcome is Outcome.RUNNING else going.state.world
+            end = driven(going)
             story = drive.foresight.story
             assert (end.outcome, end.ended) == (story.outcome, story.end)
         best = found.best[0].foresight
@@ -213,11 +217,10 @@ def test_what_a_planner_would_have_done_is_what_it_does_from_there() -> None:
         found = own_move(timeline)
         assert found.by_person
         assert found.made.tick == asked_at
-        free = Timeline(before.config, before)
-        would = free.advance().decision
-        assert would is not None
-        assert found.would is would.move
-        end = driven(free) if free.state.world.outcome is Outcome.RUNNING else free.state.world
+        would = step(before)
+        assert would.decision is not None
+        assert found.would is would.decision.move
+        end = ended(would.state)
         story = found.after_would.story
         assert (end.outcome, end.ended) == (story.outcome, story.end)
         differs += not found.same
