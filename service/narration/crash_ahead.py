@@ -30,7 +30,8 @@ class CrashesAhead:
             run = ""
             if found.last is not None:
                 run = self._say("run", seconds=self._seconds(found), what=self._happens(found))
-            return within([Part(0, self._say(f"chance{form}", share=share)), Part(1, run)])
+            key = "chance_all" if seen.crashes == 1.0 else "chance"
+            return within([Part(0, self._say(f"{key}{form}", share=share)), Part(1, run)])
         if found.last is None:
             return self._say(f"none{form}", end=end_told(self._sayings, seen))
         what = self._say(f"one{form}", seconds=self._seconds(found), what=self._happens(found))

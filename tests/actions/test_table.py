@@ -127,7 +127,9 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
             load([{"do": "ask", "about": about, **{name: values[name] for name in (*traits.must, key)}}])
     for key in traits.must:
         with pytest.raises(ValueError, match=f"needs '{key}'"):
-            load([{"do": "ask", "about": about, **{name: values[name] for name in traits.must if name != key}}])
+            load(
+                [{"do": "ask", "about": about, **{name: values[name] for name in traits.must if name != key}}]
+            )
 
 
 @pytest.mark.parametrize(

@@ -44,7 +44,9 @@ def test_decisions_of_a_drive_are_those_of_each_moment_by_itself(planner: str) -
         state = timeline.state
         forget()
         begins = [state, *(after_move(state, move) for move in (Move.FORWARD, Move.STAY))]
-        ticks = [each for begin in begins for each in rollout(begin) if begin.world.outcome is Outcome.RUNNING]
+        ticks = [
+            each for begin in begins for each in rollout(begin) if begin.world.outcome is Outcome.RUNNING
+        ]
         for before, tick in ticks:
             forget()
             alone = decide(before)
