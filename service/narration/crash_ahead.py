@@ -59,8 +59,7 @@ class CrashesAhead:
         if key not in ("swap", "cross"):
             key = "came" if decision.move is Move.STAY else "into" if kind_of(ids[0]).fixed else "met"
         who = Naming(self._sayings, last, as_seen=False).things(ids)
-        forms = {form: self._sayings.move(decision.move, form) for form in ("do", "doing")}
-        return self._say(key, who=who, **forms)
+        return self._say(key, who=who, do=self._sayings.move(decision.move, "do"))
 
     def _free(self, found: CrashAhead) -> str:
         """That no other move was free in the last tick, as it was seen."""

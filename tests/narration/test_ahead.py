@@ -1,4 +1,4 @@
-"""Answers about what lies ahead, blame and planners: short sentences that hold to their facts, yes or no first."""
+"""Answers about what lies ahead, blame and planners: short, true to their facts, yes or no first."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ YES_NO = {"en": ("Yes", "No"), "de": ("Ja", "Nein")}
 
 
 def sessions(count: int) -> Iterator[Timeline]:
-    """Sessions at any moment, some after their end, with any planner, and now and then a person who drives."""
+    """Sessions at any moment, some of them ended, with any planner, and now and then a person who drives."""
     draw = random.Random(3)
     for number in range(count):
         config = Config(

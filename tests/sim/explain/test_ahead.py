@@ -1,4 +1,4 @@
-"""What is said of the time ahead holds when the road is really driven, tick by tick, with what was claimed."""
+"""What is said of the time ahead holds when the road is really driven, tick by tick, as was claimed."""
 
 from __future__ import annotations
 
