@@ -8,7 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, get_args
 
-from service.actions import QUESTIONS, ChatKind, Choosable, MetricName, Term, ViewName, load
+from pydantic import ValidationError
+
+from service.actions import QUESTIONS, WHATS, ChatKind, Choosable, MetricName, Term, ViewName, load
 from service.actions.questions import DetailName
 from service.grammar.sentences import Sentences, Unsayable
 from service.styles import styles
@@ -75,7 +77,7 @@ def sentences(language: Sentences) -> Iterator[str]:
     for values in (*_things(), *_clock(), *_settings(), *_questions(), *_rest()):
         try:
             yield language.sentence(load([values]))
-        except Unsayable:
+        except (Unsayable, ValidationError):  # the question is none without one of its keys
             continue
 
 
@@ -175,6 +177,7 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "options", "parameter": name}
     for term in get_args(Term):
         yield {"do": "ask", "about": "term", "term": term}
+    yield from _ahead_and_back()
     yield {"do": "ask", "about": "history", "what": "closest_call"}
     yield {"do": "ask", "about": "history", "what": "summary"}
     yield {"do": "ask", "about": "history", "what": "since", "tick": 5}
@@ -190,6 +193,21 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "other", "what": "going", "which": which}
         for moved in ({}, {"move": "left"}, {"move": "right"}, {"move": "stay"}):
             yield {"do": "ask", "about": "other", "what": "why", "which": which, **moved}
+
+
+def _ahead_and_back() -> Iterator[dict[str, Any]]:
+    for move in Move:
+        yield {"do": "ask", "about": "outlook", "what": "safe", "move": move}
+    for about in ("outlook", "blame", "planners"):
+        for what in WHATS[about]:
+            if what != "safe":
+                yield {"do": "ask", "about": about, "what": what}
+    for what in (*WHATS["blame"], "own"):
+        about = "planners" if what == "own" else "blame"
+        yield {"do": "ask", "about": about, "what": what, "tick": 12}
+    for what in ("here", "compare"):
+        yield {"do": "ask", "about": "planners", "what": what, "planners": ["astar", "dijkstra"]}
+    yield {"do": "ask", "about": "planners", "what": "character", "planner": "astar"}
 
 
 def _rest() -> Iterator[dict[str, Any]]:
@@ -210,6 +228,7 @@ def _rest() -> Iterator[dict[str, Any]]:
     for style in styles():
         yield {"do": "style", "style": style}
     yield {"do": "ask", "about": "styles"}
+    yield {"do": "ask", "about": "quiz"}
     yield {"do": "advise", "hazard": "pothole", "distance_m": 20, "speed_kmh": 50}
     yield {"do": "save", "name": "monday demo"}
     yield {"do": "load", "name": "monday demo"}

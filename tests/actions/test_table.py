@@ -75,6 +75,15 @@ def test_every_question_has_traits_and_an_answerer() -> None:
     assert set(QUESTIONS) == set(get_args(QuestionName)) == set(Answers(Sayings.load())._by_question)
 
 
+NAMING: dict[str, tuple[str, ...]] = {
+    "history": ("between", "tick", "until"),
+    "outlook": ("safe", "move"),
+    "blame": ("fault", "tick"),
+    "planners": ("here", "planners"),
+}
+"""Of a question of several about the same, one, and what it names."""
+
+
 @pytest.mark.parametrize("about", QUESTIONS)
 def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
     values: dict[str, object] = {
@@ -94,9 +103,15 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         "instead": "right",
         "how": "shorter",
         "which": {"kind": "vehicle", "nearest": True},
+        "planners": ["astar"],
+        "planner": "astar",
     }
+    if about in NAMING:
+        values |= {"what": NAMING[about][0]}
     traits = QUESTIONS[about]
-    named = {key: values[key] for key in traits.may}
+    named = {key: values[key] for key in NAMING.get(about, traits.may) if key in values} | (
+        {"what": values["what"]} if "what" in traits.may else {}
+    )
     if "ticks" in named:  # ticks are counted back, or named
         del named["ticks"]
     named.pop("seconds", None)
@@ -151,14 +166,21 @@ def test_what_contradicts_itself_is_no_question(keys: dict[str, object], fits: b
         ({"what": "riskiest", "tick": 3}, False),
         ({"what": "similar", "count": 3, "tick": 3}, True),
         ({"what": "similar", "ticks": 3}, False),
+        ({"what": "safe", "about": "outlook", "move": "left"}, True),
+        ({"what": "safe", "about": "outlook"}, False),
+        ({"what": "stuck", "about": "outlook", "move": "left"}, False),
+        ({"what": "character", "about": "planners", "planner": "astar"}, True),
+        ({"what": "character", "about": "planners", "planners": ["astar"]}, False),
+        ({"what": "own", "about": "planners", "tick": 3}, True),
+        ({"what": "summary", "about": "blame"}, False),
     ],
 )
-def test_questions_about_the_past_name_the_ticks_they_need(keys: dict[str, object], fits: bool) -> None:
+def test_questions_name_what_they_need_and_nothing_more(keys: dict[str, object], fits: bool) -> None:
     values = [{"do": "ask", "about": "history", **keys}]
     if fits:
         load(values)
         return
-    with pytest.raises(ValueError, match=r"names|ends after"):
+    with pytest.raises(ValueError, match=r"names|ends after|does not belong"):
         load(values)
 
 

@@ -39,7 +39,11 @@ def explanation_json(explanation: Explanation, texts: Sequence[str]) -> Json:
         },
         "counterfactual": flips[0] if flips else None,
         "stakes": None if explanation.stakes is None else stakes_json(explanation.stakes),
-        "evidence": {"counterfactuals": flips, "reruns": explanation.reruns},
+        "evidence": {
+            "counterfactuals": flips,
+            "reruns": explanation.reruns,
+            **({"untried": explanation.untried} if explanation.untried else {}),
+        },
     }
 
 
