@@ -62,6 +62,9 @@ OF_THEM = "of_them"
 ENDING_NOUN = "ending_noun"
 """Concept of endings after which a noun is left out: "all but the nearest"."""
 
+PREFACE = "preface"
+"""Concept of what may be said before a request for its reason; what the request does not do: "too many, …"."""
+
 TWO = "two"
 """Concept of what is done to two things, each of which is to be named: "swap them"."""
 
@@ -76,6 +79,9 @@ MORE_TICKS = "more_ticks"
 
 STILL = "still"
 """Concept of endings that a comparison may have: "a bit harder still"."""
+
+GOING_ON = "going_on"
+"""Concept of words by which a change goes on with the last one: "still"."""
 
 MUCH_MORE = "much_more"
 """Concept of what does the last request again, to a degree: "a bit more"; `{again: degree}` or `{turned: ...}`."""
@@ -109,6 +115,10 @@ class Answers:
     """questions about requests that lack something (`ask`), and how each may be completed (`with`)"""
     counted_things: Mapping[str, str] = field(default_factory=dict)
     """sentences with a number of things (`{count}`, `{one}`, `{many}`), by what they are for"""
+    one_after: tuple[str, ...] = ()
+    """ways to complete what points at a thing without a noun (`{said}`): "the third" """
+    continues: Mapping[str, str] = field(default_factory=dict)
+    """by kind of request, the sentence that says another without its verb (`{said}`)"""
     shall: str = ""
     """the question whether what an answer listed is to be done"""
     completes: tuple[str, ...] = ()
@@ -129,6 +139,8 @@ class Answers:
             data.get("setting_named", "{setting}"),
             tuple(data.get("incomplete", ())),
             data.get("counted_things", {}),
+            tuple(data.get("one_after", ())),
+            data.get("continues", {}),
             data.get("shall", ""),
             tuple(data.get("completes", ())),
             frozenset(data.get("places", ())),

@@ -60,6 +60,8 @@ def read_answer(
     if not tokens or len(tokens) > MAX_WORDS or not choices:
         return None
     try:
+        # A question completes no request.
+        literal = literal or text.rstrip().endswith("?")
         return _Answering(language, choices, asked).read(tokens, literal=literal)
     except BudgetExceededError:
         return None

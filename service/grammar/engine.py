@@ -35,6 +35,7 @@ from service.grammar.paths import SEPARATOR
 from service.grammar.references import add_known
 from service.grammar.repairs import ALWAYS, DROPPED, Repair
 from service.grammar.sentences import Sentences
+from service.grammar.small_talk import small_talk
 from service.grammar.span_patterns import REPAIR
 from service.grammar.suggestions import Meanings, Saying, Suggestions, meanings_of
 from service.grammar.tokens import Token, normalise, restore_marks, tokenise, with_text
@@ -113,6 +114,8 @@ class Language:
             return Refused(text, "not_understood", messages["too_long"].format(words=MAX_TOKENS))
         work.spend(READ_STEPS + TOKEN_STEPS * len(tokens))
         kept = find_names(tokens, self._lexicon, restore_marks(text, plain), topic)
+        if kept and small_talk(self._scanner.scan(tokens, {})):
+            kept = {}
         tokens, corrections = self._fix_typos(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
         resolve_lanes_from_right(lattice, topic)

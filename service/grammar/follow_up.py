@@ -11,25 +11,27 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from service.actions import Action
+from service.actions import Action, Advise, Ask
 from service.actions.table import traits_of
-from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO, TOTAL
+from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, NO, PREFACE, TOO, TOTAL
 from service.grammar.engine import Language
+from service.grammar.foil_follow_up import ask_of_foil
 from service.grammar.incomplete import ask_elsewhere, ask_what_is_missing
 from service.grammar.last_request import asked_anew
 from service.grammar.listed_options import choose_listed
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.repairs import about_the_same
-from service.grammar.said_before import can_be_corrected, done_anew, said_before
-from service.grammar.sentences import Unsayable
-from service.grammar.setting_talk import read_of_setting
-from service.grammar.short_talk import read_short
+from service.grammar.said_before import can_be_corrected, done_anew, said_before, shape
 from service.grammar.same_request import to_other_things
-from service.grammar.thing_talk import read_asked, read_of_things
+from service.grammar.sentences import Unsayable
+from service.grammar.setting_talk import read_of_setting, setting_of
+from service.grammar.short_talk import pick_going_on, read_short
+from service.grammar.thing_talk import kinds_of, read_asked, read_of_things
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
+from service.grammar.unclear_it import ask_whether, ask_which_it
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
-from sim.actions import Add, SetCount
+from sim.actions import Add, Adjust, SetCount
 
 MAX_SHORT = 4
 """A sentence of so many words after "and" may ask the last question once more."""
@@ -52,11 +54,32 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     if alone or _asks(parsed):
         of_setting = read_of_setting(language, text, topic, parsed)
         if of_setting is not None:
-            return of_setting
+            return _instead(language, text, topic, of_setting)
+    if (alone or isinstance(parsed, Ambiguous)) and (
+        once := _said_once(language, text, topic) or pick_going_on(language, text, topic, parsed)
+    ):
+        return once
+    if (alone or isinstance(parsed, Ambiguous)) and (
+        after := _after_preface(language, text, topic)
+    ) is not None:
+        return after
+    if not topic.undone and (of_foil := ask_of_foil(language, text, topic, parsed)) is not None:
+        return of_foil
     if alone and (said := read_short(language, text, topic) or read_asked(language, text, topic)):
         return said
+    if isinstance(parsed, Understood) and (unclear := ask_which_it(language, text, topic, parsed)):
+        return unclear
+    meant = _after_last(language, text, topic, parsed, alone=alone)
+    if isinstance(meant, Understood) and meant.actions == getattr(parsed, "actions", None):
+        return ask_whether(language, text, topic, meant) or meant
+    return meant
+
+
+def _after_last(language: Language, text: str, topic: Topic, parsed: Parse, *, alone: bool) -> Parse:
+    """What a sentence means after the last request; `alone`: it means nothing by itself."""
     if not topic.actions or topic.undone:
-        return _completed(language, text, topic, parsed)
+        of_things = read_of_things(language, text, topic) if alone else None
+        return of_things or _completed(language, text, topic, parsed)
     if isinstance(parsed, Understood) and _takes_the_place(language, text, topic, parsed):
         return replace(parsed, actions=done_anew(topic, parsed.actions))
     if isinstance(parsed, Understood | Refused) and (
@@ -68,14 +91,21 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     tokens = tokenise(normalise(text), language.data.contractions)
     if len(tokens) > MAX_WORDS:
         return parsed
-    leaning = _Leaning(language, text, tokens, topic)
+    if alone and topic.actions[0] != topic.changed[:1] and _scene_asked(topic):
+        # "Make it five" after "how many are left?" is how many there shall be.
+        if (total := read_of_things(language, text, topic, counted=True)) is not None:
+            return total
+    leaning = _Leaning(language, text, tokens, _about_the_change(text, topic))
     try:
         found = leaning.read()
     except BudgetExceededError:
         return parsed
     if alone:
-        of_things = None if leaning.corrects else read_of_things(language, text, topic)
-        return found or of_things or _completed(language, text, topic, parsed)
+        if found is None and leaning.corrects:
+            found = _corrects_setting(language, leaning, topic)
+        if found is None:
+            found = read_of_things(language, text, topic, counted=leaning.corrects)
+        return found or _completed(language, text, topic, parsed)
     assert isinstance(parsed, Understood)
     return _after_question(language, leaning, found, parsed)
 
@@ -84,6 +114,64 @@ def _completed(language: Language, text: str, topic: Topic, parsed: Parse) -> Pa
     """The question about what a request lacks; else what it means by itself."""
     lacking = isinstance(parsed, Refused) and parsed.reason in ("not_understood", "negation")
     return (ask_what_is_missing(language, text, topic) if lacking else None) or parsed
+
+
+def _instead(language: Language, text: str, topic: Topic, parsed: Parse) -> Parse:
+    """A change of a setting by an amount or a factor, in the place of the last one: "no, halve it"."""
+    tokens, answers = tokenise(normalise(text), language.data.contractions), language.data.answers
+    if not isinstance(parsed, Understood) or answers.whole(tokens[:1], {}, {}) != NO or not topic.steps:
+        return parsed
+    both = (*topic.actions, *parsed.actions)
+    measured = all(isinstance(each, Adjust) and each.direction is None for each in both)
+    same = measured and shape(topic.actions) == shape(parsed.actions) and not topic.undone
+    return replace(parsed, actions=done_anew(topic, parsed.actions)) if same else parsed
+
+
+def _said_once(language: Language, text: str, topic: Topic) -> Parse | None:
+    """What a sentence means whose words are all said twice or more for emphasis: "wait wait"."""
+    plain = normalise(text)
+    words = [token for token in tokenise(plain, language.data.contractions) if token.text.isalpha()]
+    if len(words) < 2 or len({token.text for token in words}) > 1:
+        return None
+    once = plain[words[0].start : words[0].end]
+    parsed = language.parse(once, topic)
+    return None if isinstance(parsed, Refused) else replace(parsed, text=text)
+
+
+def _after_preface(language: Language, text: str, topic: Topic) -> Parse | None:
+    """What a request means before which its reason is said: "too many, remove half of them"."""
+    answers = language.data.answers
+    tokens = tokenise(normalise(text), language.data.contractions)
+    end, excluded = answers.longest(tokens, 0, PREFACE)
+    while 0 < end < len(tokens) and not any(char.isalnum() for char in tokens[end].text):
+        end += 1
+    if not 0 < end < len(tokens):
+        return None
+    rest = normalise(text)[tokens[end].start :]
+    parsed = read_in_conversation(language, rest, topic, language.parse(rest, topic))
+    if isinstance(parsed, Refused):
+        return None
+    if isinstance(parsed, Understood):
+        fits = all(action.do != excluded for action in parsed.actions)
+        return replace(parsed, text=text) if fits else None
+    return replace(parsed, text=text)
+
+
+def _about_the_change(text: str, topic: Topic) -> Topic:
+    """The topic as it was before a question about the things that were changed last.
+
+    "And one in lane 4" after "how many potholes are there?" goes on with what added them; "and left?" asks.
+    """
+    if not _scene_asked(topic) or not topic.changed_steps or text.rstrip().endswith("?"):
+        return topic
+    if kinds_of(topic.actions) != kinds_of(topic.changed):
+        return topic
+    return replace(topic, actions=topic.changed, steps=topic.changed_steps, said="")
+
+
+def _scene_asked(topic: Topic) -> bool:
+    """Whether the last request asked what is on the road."""
+    return all(isinstance(action, Ask) and action.about == "scene" for action in topic.actions)
 
 
 def _asks(parsed: Parse) -> bool:
@@ -109,6 +197,8 @@ def _after_question(language: Language, leaning: _Leaning, found: Parse | None, 
     "And left?" asks; "and left" may be either, so it is asked about. One that asks what cannot be found out
     is refused: it must not act.
     """
+    if leaning.goes_on and (meant := _of_advice(leaning.done, alone)) is not None:
+        return meant
     if not leaning.goes_on or all(traits_of(action).is_question for action in alone.actions):
         return alone if found is None or not leaning.goes_on else found
     if found is None:
@@ -119,6 +209,24 @@ def _after_question(language: Language, leaning: _Leaning, found: Parse | None, 
         counted = any(isinstance(action, Add) and action.count > 1 for action in alone.actions)
         return leaning.refusal(alone.text) if asks and leaning.short and not counted else alone
     return found if asks else _which(language, alone.text, found, alone)
+
+
+def _corrects_setting(language: Language, leaning: _Leaning, topic: Topic) -> Parse | None:
+    """The last change of a setting done otherwise: "no, triple"."""
+    if not can_be_corrected(topic) or setting_of(topic.actions) is None:
+        return None
+    found = read_of_setting(language, leaning.corrected, topic, leaning.refusal(leaning.corrected))
+    if not isinstance(found, Understood) or shape(found.actions) != shape(topic.actions):
+        return None
+    return replace(found, text=leaning.text, actions=done_anew(topic, found.actions))
+
+
+def _of_advice(done: Actions, alone: Understood) -> Parse | None:
+    """The last advice for another hazard: "what if it is a pedestrian?"."""
+    if len(done) != 1 or not isinstance(done[0], Advise) or any(isinstance(a, Advise) for a in alone.actions):
+        return None
+    meant = asked_anew(done, alone.actions)
+    return None if meant is None else Understood(alone.text, meant)
 
 
 def _which(language: Language, text: str, found: Parse, alone: Understood) -> Parse:
@@ -155,6 +263,17 @@ class _Leaning:
         """whether it begins as what goes on with the last request"""
         self.short = len(self._tokens) - follows <= MAX_SHORT
 
+    @property
+    def text(self) -> str:
+        """All of it, as it was said."""
+        return self._text
+
+    @property
+    def corrected(self) -> str:
+        """What is said behind the words that begin a correction."""
+        start = self._answers.beginning(self._tokens, CORRECTS)
+        return self._written(self._tokens[start:]) if start < len(self._tokens) else ""
+
     def refusal(self, text: str) -> Refused:
         """The refusal of all of it."""
         said, messages = text.strip(), self._language.data.messages
@@ -185,7 +304,11 @@ class _Leaning:
         base = said_before(self._language, self._topic, self._work)
         if base is None or not all(traits_of(action).amendable for action in done):
             return None
-        if (other := to_other_things(self._language, self._written(rest), self._spoken_of, done)) is not None:
+        if (
+            other := to_other_things(
+                self._language, self._written(rest), self._spoken_of, done, self._answers.one_after
+            )
+        ) is not None:
             return Understood(self._text, self._whole(other, correcting))
         meant = self._amended(base, done, rest, goes_on=not correcting)
         meant = meant or self._elsewhere(done, rest)
@@ -293,13 +416,6 @@ class _Leaning:
 def _anywhere(actions: Sequence[Any]) -> Actions:
     """The actions without their places."""
     return tuple(replace(action, where=None) for action in actions)
-
-
-def shape(actions: Sequence[Action]) -> list[object]:
-    """What kinds of request some actions are."""
-    return [
-        (action.do, getattr(action, "about", None), getattr(action, "parameter", None)) for action in actions
-    ]
 
 
 def _without_marks(tokens: Sequence[Token]) -> Sequence[Token]:

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 from service.actions import Action
+from service.grammar.accounting import VERB
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
 from service.grammar.noun_phrases import QUANTITY
 from service.grammar.parse_types import Choice, Understood
@@ -35,6 +36,14 @@ DENIED = "denied"
 
 NUMBERS = "numbers"
 """That of words that take back only where a number follows: "no three"."""
+
+CAPTURES = "captures"
+"""Concept of verbs after which a name stands: "save this as"."""
+
+FOIL = "foil"
+"""Concept of a move that another one is compared with: "instead of right"."""
+_COMPARING = frozenset(("q.why", "had_moved"))
+"""Concepts of questions that compare; anywhere else such words say what shall not be."""
 
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
@@ -80,10 +89,11 @@ class Repair:
         """The first thing taken back with something in its place, if any."""
         if REPAIR not in lattice.concepts:
             return None
+        skipped = SKIPPED if lattice.concepts & _COMPARING else SKIPPED | {FOIL}
         edges = sorted((e for e in lattice.all() if e.concept == REPAIR), key=lambda e: (e.start, -e.end))
         for edge in edges:
             if any(
-                other.end > edge.end and other.concept not in SKIPPED for other in lattice.edges[edge.start]
+                other.end > edge.end and other.concept not in skipped for other in lattice.edges[edge.start]
             ):
                 continue  # the first word of something else: "wait a second"
             one = cls(plain, tokens, lattice, edge, work)
@@ -128,7 +138,7 @@ class Repair:
         """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""
         said = ends_of_pieces(steps_of(self._lattice), self._again, self._work)
         found: list[Choice] = []
-        for end in sorted(end for end in said if end <= self._tail and self._stands_elsewhere(end)):
+        for end in sorted(end for end in said if end <= self._tail and self._is_apart(end)):
             before = self._written(0, self._edge.start if end < self._tail else self._end)
             text = f"{before} {self._written(self._past_separators(end), self._lattice.size)}".strip(" ,;")
             parsed = read(text)
@@ -137,6 +147,22 @@ class Repair:
             if all(c.actions != parsed.actions for c in found):
                 found.append(Choice(text, parsed.actions))
         return found
+
+    def _is_apart(self, end: int) -> bool:
+        """Whether what is not wanted ends there: before other words of its kind, and not inside its request.
+
+        At the beginning it ends at a mark ("instead of adding a cone, add a bus") or before the verb of what
+        is wanted ("instead of A* use Dijkstra"): "instead of making it night" wants nothing.
+        """
+        if self._end == 0 and end < self._tail:
+            dropped = list(self._lattice.between(self._again, end))
+            if any(edge.concept.startswith((VERB, CAPTURES)) for edge in dropped):
+                return False
+            if all(edge.concept in SKIPPED or edge.sense.value is None for edge in dropped):
+                return False
+            if not any(edge.concept.startswith(VERB) for edge in self._lattice.edges[end]):
+                return False
+        return self._stands_elsewhere(end)
 
     def _points(self, end: int) -> bool:
         """Whether what is dropped are things on the road: "instead of that cone" is more than not to add one."""

@@ -28,11 +28,12 @@ class LanguageReader(Protocol):
 
 
 def to_other_things(
-    language: LanguageReader, named: str, topic: Topic, done: Sequence[Action]
+    language: LanguageReader, named: str, topic: Topic, done: Sequence[Action], noun_after: Sequence[str] = ()
 ) -> tuple[Action, ...] | None:
     """The last request done to the things that are `named`; None where it is done to none, or they are unclear.
 
-    `named` is as it was said; what it may refer to is in the topic.
+    `named` is as it was said, and what it may refer to is in the topic; `noun_after` are ways to complete it
+    ("the third": "the third one").
     """
     if not done or not all(isinstance(each, Remove | MoveThings | Replace | Copy) for each in done):
         return None
@@ -46,13 +47,14 @@ def to_other_things(
         return None
     if sentence.count(_MARK) != 1:
         return None
-    parsed = language.read(sentence.replace(_MARK, named), topic, WorkBudget(), asking=False)
-    if not isinstance(parsed, Understood) or not parsed.actions:
-        return None
-    same = all(
-        type(each) is type(first) and _pointed(each) and _aim(each) == _aim(first) for each in parsed.actions
-    )
-    return parsed.actions if same else None
+    for words in (named, *(each.format(said=named) for each in noun_after)):
+        parsed = language.read(sentence.replace(_MARK, words), topic, WorkBudget(), asking=False)
+        if isinstance(parsed, Understood) and all(
+            type(each) is type(first) and _pointed(each) and _aim(each) == _aim(first)
+            for each in parsed.actions
+        ):
+            return parsed.actions
+    return None
 
 
 def _pointed(action: Action) -> bool:

@@ -14,6 +14,7 @@ from service.actions.table import traits_of
 from service.grammar.answer_words import (
     ASKS_AGAIN,
     FOLLOWS,
+    GOING_ON,
     MORE_TICKS,
     MUCH_MORE,
     STILL,
@@ -22,7 +23,8 @@ from service.grammar.answer_words import (
     VIEW_SAID,
 )
 from service.grammar.engine import Language
-from service.grammar.parse_types import Parse, Understood
+from service.grammar.parse_types import Ambiguous, Parse, Understood
+from service.grammar.said_before import shape
 from service.grammar.sentences import Unsayable
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import ALONE, Topic
@@ -59,7 +61,11 @@ def read_short(language: Language, text: str, topic: Topic) -> Parse | None:
     if degree is not None and (actions := _to_degree(topic.request, degree)):
         return Understood(text, actions)
     try:
-        return _of_view(language, text, tokens, topic) or _still(language, text, tokens, topic)
+        return (
+            _of_view(language, text, tokens, topic)
+            or _still(language, text, tokens, topic)
+            or _continued(language, text, tokens, topic)
+        )
     except (BudgetExceededError, Unsayable):
         return None
 
@@ -123,11 +129,39 @@ def _still(language: Language, text: str, tokens: Sequence[Token], topic: Topic)
     if start >= end or (start, end) == (0, len(tokens)):
         return None
     said = plain[tokens[start].start : tokens[end - 1].end]
-    parsed = language.read(said, topic, WorkBudget(), asking=False)
-    compares = isinstance(parsed, Understood) and all(
-        isinstance(action, Goal | Adjust) for action in parsed.actions
+    parsed = language.read(said, topic, WorkBudget(), asking=True)
+    readings = [parsed] if isinstance(parsed, Understood) else []
+    if isinstance(parsed, Ambiguous):
+        readings = [Understood(text, choice.actions) for choice in parsed.choices]
+        readings = [each for each in readings if shape(each.actions) == shape(topic.actions)]
+    if len(readings) != 1 or not all(isinstance(action, Goal | Adjust) for action in readings[0].actions):
+        return None
+    return Understood(text, readings[0].actions)
+
+
+def pick_going_on(language: Language, text: str, topic: Topic, parsed: Parse) -> Parse | None:
+    """The reading that goes on with the last change where a sentence has several: "a bit slower still"."""
+    tokens = without_marks(tokenise(normalise(text), language.data.contractions))
+    answers = language.data.answers
+    goes_on = answers.ending(tokens, GOING_ON) or answers.beginning(tokens, GOING_ON)
+    if not isinstance(parsed, Ambiguous) or not goes_on or topic.undone:
+        return None
+    fits = [each for each in parsed.choices if shape(each.actions) == shape(topic.actions)]
+    return Understood(text, fits[0].actions) if len(fits) == 1 else None
+
+
+def _continued(language: Language, text: str, tokens: Sequence[Token], topic: Topic) -> Parse | None:
+    """Another request of the kind of the last one, without its verb: "now as if you were in a hurry"."""
+    answers, plain = language.data.answers, normalise(text)
+    template = answers.continues.get(topic.request[0].do) if len(topic.request) == 1 else None
+    start = max(answers.beginning(tokens, FOLLOWS), answers.beginning(tokens, STILL))
+    if template is None or start >= len(tokens):
+        return None
+    parsed = language.read(
+        template.format(said=plain[tokens[start].start : tokens[-1].end]), ALONE, WorkBudget(), asking=False
     )
-    return Understood(text, parsed.actions) if compares and isinstance(parsed, Understood) else None
+    alike = isinstance(parsed, Understood) and all(each.do == topic.request[0].do for each in parsed.actions)
+    return replace(parsed, text=text) if alike and isinstance(parsed, Understood) else None
 
 
 def without_marks(tokens: Sequence[Token]) -> Sequence[Token]:

@@ -22,11 +22,16 @@ from service.grammar.answer_words import (
 )
 from service.grammar.engine import Language
 from service.grammar.lattice import GLUE, Lattice
+from service.grammar.noun_phrases import QUANTITY
 from service.grammar.parse_types import Parse, Understood
+from service.grammar.references import REFERS
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, Replace, SetCount
+
+_MORE = ("more", "another")
+"""Values of the quantities that add to what is there."""
 
 MAX_WORDS = 14
 """Longer sentences name what they are about."""
@@ -81,8 +86,11 @@ def _tokens(language: Language, text: str) -> Sequence[Token]:
     return tokens
 
 
-def read_of_things(language: Language, text: str, topic: Topic) -> Parse | None:
-    """What a sentence says of the kind of thing spoken of last; None where it says nothing of it."""
+def read_of_things(language: Language, text: str, topic: Topic, *, counted: bool = False) -> Parse | None:
+    """What a sentence says of the kind of thing spoken of last; None where it says nothing of it.
+
+    `counted`: only how many there shall be, for sentences that begin as a correction.
+    """
     kind = kind_spoken_of(topic)
     names = language.sentences.names(kind) if kind is not None else {}
     if kind is None or not names:
@@ -92,7 +100,8 @@ def read_of_things(language: Language, text: str, topic: Topic) -> Parse | None:
         return None
     work = WorkBudget()
     try:
-        for said in dict.fromkeys(_InFull(language, text, tokens, topic, names).sentences()):
+        full = _InFull(language, text, tokens, topic, names)
+        for said in dict.fromkeys(full.counted() if counted else full.sentences()):
             meant = language.read(said, topic, work, asking=False)
             if (
                 isinstance(meant, Understood)
@@ -106,10 +115,19 @@ def read_of_things(language: Language, text: str, topic: Topic) -> Parse | None:
 
 
 def _sure(language: Language, text: str, topic: Topic, meant: Understood) -> bool:
-    """Whether things are added only by a verb, or after others were: "two in lane 4" says nothing else."""
+    """Whether things are added only at a place, and by a verb or after others were.
+
+    "Add one in lane 5" is another of them; "add three" may be three of anything.
+    """
     adds = any(isinstance(action, Add) for action in meant.actions)
+    if not adds:
+        return True
+    scan = language.scan(_tokens(language, text))
+    if any(edge.concept == QUANTITY and edge.sense.value in _MORE for edge in scan.all()):
+        return True
+    placed = all(getattr(action, "where", None) is not None for action in meant.actions)
     verb = any(concept.startswith("v.") for concept in language.concepts(text))
-    return not adds or verb or all(isinstance(action, Add | SetCount) for action in topic.actions)
+    return placed and (verb or all(isinstance(action, Add | SetCount) for action in topic.actions))
 
 
 def _all_of(kind: str, actions: Sequence[Action]) -> bool:
@@ -144,18 +162,22 @@ class _InFull:
 
     def sentences(self) -> Iterator[str]:
         """The sentences in full, in the order in which they are tried."""
-        counted = self._answers.meant(self._tokens, COUNTED, self._numbers)
-        if counted is not None:
-            ((form, count),) = counted.items()
-            yield str(self._answers.counted_things[form]).format(count=count, **self._names)
+        yield from self.counted()
         yield from self._of_them(self._tokens)
         yield from self._with_noun(self._tokens)
         if self._answers.ending(self._tokens, ENDING_NOUN):
             yield self._joined(self._tokens, len(self._tokens), len(self._tokens), self._names["one"])
 
+    def counted(self) -> Iterator[str]:
+        """How many there shall be: "set it to four"."""
+        counted = self._answers.meant(self._tokens, COUNTED, self._numbers)
+        if counted is not None:
+            ((form, count),) = counted.items()
+            yield str(self._answers.counted_things[form]).format(count=count, **self._names)
+
     def _of_them(self, tokens: Sequence[Token]) -> Iterator[str]:
         """ "Half of them", "two of them": of all things of the kind, where these are all there are."""
-        if self._topic.others or len(self._topic.things) < 2:
+        if self._topic.things and (self._topic.others or len(self._topic.things) < 2):
             return
         for at in range(1, len(tokens)):
             end, template = self._answers.longest(tokens, at, OF_THEM)
@@ -167,7 +189,8 @@ class _InFull:
         scan = self._language.scan(tokens)
         for at in range(len(tokens)):
             end, nouns = self._answers.longest(tokens, at, NOUN)
-            for noun in nouns if end > at and not _in_phrase(scan, at, end) else ():
+            refers = any(edge.start < end and at < edge.end for edge in scan.all() if edge.concept == REFERS)
+            for noun in nouns if end > at and not refers else ():
                 yield self._joined(tokens, at, end, str(noun).format(**self._names))
         for at in range(len(tokens)):
             found = self._language.data.numbers.read(tokens, at)

@@ -64,6 +64,8 @@ class Topic:
     """ids that the last request was about: "the next one" is after them"""
     listed: tuple[str, ...] = ()
     """ids in the order in which they were last told or added: "the second one" """
+    batch: tuple[str, ...] = ()
+    """those of them that one request added or one answer told, the last that did"""
     gone: frozenset[str] = frozenset()
     """those of them that are no longer on the road"""
     undone: bool = False

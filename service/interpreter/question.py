@@ -42,12 +42,13 @@ def answered(language: Any, code: str, text: str, parse: Parse, pending: Pending
 
     A request of its own is an answer only where it says no more than the words of one choice.
     """
-    asks_itself = isinstance(parse, AmbiguousParse)
-    if pending is None or asks_itself or not isinstance(language, Grammar):
+    if pending is None or not isinstance(language, Grammar):
         return parse
     choices = [Choice(each.text, each.actions) for each in pending.choices]
     literal = not isinstance(parse, Refused) or code != pending.language
     answer = read_answer(language, text, choices, literal=literal, asked=pending.text)
+    if isinstance(parse, AmbiguousParse) and not isinstance(answer, tuple):
+        return parse
     match answer:
         case None:
             return parse

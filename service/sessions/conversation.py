@@ -71,6 +71,10 @@ class Conversation:
         self._away: tuple[int, ...] = ()
         """how many things each of them took off the road or moved"""
         self._listed: tuple[str, ...] = ()
+        self._batch: tuple[str, ...] = ()
+        """those of them that were told or added last, by one request"""
+        self._told = False
+        """whether an answer told them"""
         self._taken: tuple[str, ...] = ()
         """ids of what the latest change of things took off the road: after an undo they are "it" """
         self._said_actions: tuple[Action, ...] = ()
@@ -126,12 +130,14 @@ class Conversation:
             self._undone = False  # time has passed, or stands still: "again" is about that
         amounts = [fact for fact in facts if isinstance(fact, Applied) and _moves_things(fact)]
         if amounts:
+            if any(isinstance(fact, Undone) for fact in facts):
+                self._listed = tuple(name for name in self._listed if name not in self._batch)
             self._before = self._things
             self._things = (
                 self._taken
             ) = ()  # "them" are all that the utterance added, not what its last part did
             if any(fact.added for fact in amounts):
-                self._listed = ()
+                self._begin_batch()
         elif any(isinstance(fact, Applied) and changes_number(fact.action) for fact in facts):
             self._kind = None  # "one more" is one more lane
         for fact in amounts:
@@ -139,7 +145,14 @@ class Conversation:
         if outcome.answer is not None or any(not isinstance(fact, Answerable) for fact in facts):
             self._explained = None if outcome.answer is None else explained(outcome.answer, actions)
         self._tick = None if outcome.answer is None else tick_told(outcome.answer, actions)
-        self._offered = () if outcome.answer is None else options_told(outcome.answer, actions)
+        chosen = outcome.answer is None and outcome.utterance.actions[0] in self._offered
+        self._offered = (
+            self._offered
+            if chosen
+            else ()
+            if outcome.answer is None
+            else options_told(outcome.answer, actions)
+        )
         if outcome.answer is not None:
             self._record_answer(outcome.answer, facts)
 
@@ -178,6 +191,11 @@ class Conversation:
         self._said, self._steps, self._offered, self._tick = utterance.text or "", 0, (), None
         self._undone = False
 
+    def _begin_batch(self) -> None:
+        """What was added one after another is counted on; what an answer told begins a list of its own."""
+        kept = () if self._told else self._listed
+        self._listed, self._batch, self._told = kept[-MAX_REMEMBERED:], (), False
+
     def _record_change(self, fact: Applied) -> None:
         action = fact.action
         if not isinstance(action, Add | Remove | SetCount | Rearranging):
@@ -186,7 +204,9 @@ class Conversation:
         self._set_episode(fact.state.world)
         self._things += tuple(thing.id for thing in fact.added)
         self._things += tuple(each.thing.id for each in fact.moved)
-        self._listed += tuple(thing.id for thing in fact.added)
+        added = tuple(thing.id for thing in fact.added)
+        self._listed = (*(name for name in self._listed if name not in added), *added)
+        self._batch += added
         for thing in fact.added:
             if thing.id in self._added:
                 self._added.remove(thing.id)  # undone, and given again
@@ -203,10 +223,14 @@ class Conversation:
         told = tuple(cause["id"] for cause in answer.get("causes", ()) if cause.get("id"))
         seen = tuple(thing["id"] for thing in answer.get("seen", ()))
         asked = [fact for fact in facts if isinstance(fact, Asked)]
+        if asked and seen and asked[-1].ask.count == 1 and seen[0] in self._listed:
+            self._before, self._things = self._things, seen  # one of those that were told before
+            return
         if not asked or not (told or seen):
             return
         self._set_episode(asked[-1].timeline.state.world)
-        self._listed = told or seen
+        self._listed = self._batch = told or seen
+        self._told = True
         if told or asked[-1].ask.kind is not None:  # all that is seen is too much for "them"
             self._before, self._things = self._things, told or seen
 
@@ -219,7 +243,7 @@ class Conversation:
     def _forget_things(self) -> None:
         self._things = ()
         self._before = ()
-        self._listed = ()
+        self._listed = self._batch = ()
         self._added.clear()
 
     def to_json(self) -> dict[str, Any]:
@@ -236,6 +260,8 @@ class Conversation:
             "latest_steps": [*self._latest_steps],
             "away": [*self._away],
             "listed": [*self._listed],
+            "batch": [*self._batch],
+            "told": self._told,
             "taken": [*self._taken],
             "undone": self._undone,
             "kind": self._kind,
@@ -254,6 +280,7 @@ class Conversation:
         new._said, new._steps, new._listed = values["said"], values["steps"], tuple(values["listed"])
         new._changed = contract.load(values["changed"]) if values.get("changed") else ()
         new._changed_steps = values.get("changed_steps", 0)
+        new._batch, new._told = tuple(values.get("batch", ())), bool(values.get("told"))
         new._taken = tuple(values.get("taken", ()))
         new._latest_steps = tuple(values.get("latest_steps", ()))
         new._away = tuple(values.get("away", ()))
@@ -283,6 +310,7 @@ class Conversation:
             away=self._away,
             named=named(self._actions),
             listed=self._listed if there else (),
+            batch=self._batch if there else (),
             gone=frozenset(name for name in self._listed if name not in there),
             undone=self._undone,
             kind=self._kind,
