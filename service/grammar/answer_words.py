@@ -48,7 +48,7 @@ CHOOSES = "chooses"
 """Concept of the beginnings with which one of what an answer listed is chosen: "use"."""
 
 OF_THINGS = "of_things"
-"""Concept of sentences about the kind of thing spoken of; the sentence with its noun: "how many are left?"."""
+"""Concept of sentences about the kind of thing spoken of; what to read instead: "how many are left?"."""
 
 COUNTED = "counted"
 """Concept of such sentences with a number; which of `counted_things` it is, and the number."""
@@ -63,7 +63,7 @@ ENDING_NOUN = "ending_noun"
 """Concept of endings after which a noun is left out: "all but the nearest"."""
 
 PREFACE = "preface"
-"""Concept of what may be said before a request for its reason; what the request does not do: "too many, …"."""
+"""Concept of reasons before a request, and what it does not do then: "too many, remove half"."""
 
 TWO = "two"
 """Concept of what is done to two things, each of which is to be named: "swap them"."""
@@ -84,7 +84,7 @@ GOING_ON = "going_on"
 """Concept of words by which a change goes on with the last one: "still"."""
 
 MUCH_MORE = "much_more"
-"""Concept of what does the last request again, to a degree: "a bit more"; `{again: degree}` or `{turned: ...}`."""
+"""Concept of what asks for the last goal once more, and to which degree: "a bit more"."""
 
 VIEW_SAID = "view_said"
 """Concept of words that stand for the view spoken of last: "hide it"."""

@@ -1,4 +1,4 @@
-"""Reads short sentences about the last request or question as a whole: "and now?", "twice more", "a bit more".
+"""Reads short sentences about the last request as a whole: "and now?", "twice more", "a bit more".
 
 Whatever is repeated is repeated as it was meant, at most `MAX_TIMES` times.
 """

@@ -60,7 +60,7 @@ def kinds_of(actions: Sequence[Action]) -> set[str]:
 
 
 def read_asked(language: Language, text: str, topic: Topic) -> Parse | None:
-    """A sentence that is one about the kind spoken of, or about two things: "how many are left?", "swap them"."""
+    """A sentence about the kind spoken of, or about two things: "how many are left?", "swap them"."""
     tokens = _tokens(language, text)
     answers, kind = language.data.answers, kind_spoken_of(topic)
     names = language.sentences.names(kind) if kind is not None else {}

@@ -57,7 +57,8 @@ def _things_meant(action: Action, topic: Topic) -> list[Action]:
     if isinstance(action, Drive):
         by = Shift(side=action.move)
         return [MoveThings(kind=kind, count=1, where=where, by=by) for kind, where in wheres]
-    assert isinstance(action, Add) and action.where is not None
+    assert isinstance(action, Add)
+    assert action.where is not None
     marks = [
         Landmark(id=where.id) if where.id else Landmark(kind=kind, nearest=True) for kind, where in wheres
     ]
@@ -65,7 +66,7 @@ def _things_meant(action: Action, topic: Topic) -> list[Action]:
 
 
 def ask_whether(language: Language, text: str, topic: Topic, parsed: Understood) -> Ambiguous | None:
-    """The question whether a word alone with a question mark is a request ("left?"); None where it is none."""
+    """The question whether a word alone with a question mark is a request: "left?"."""
     if not text.rstrip().endswith("?") or not all(traits_of(each).undo_step for each in parsed.actions):
         return None
     tokens = tokenise(normalise(text), language.data.contractions)[:-1]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-from service.actions import Drop
+from service.actions import Action, Ask, Drop
 from service.grammar import Language as Grammar
 from service.grammar.answers import NoChoice, NoSuchChoice, read_answer
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
@@ -54,6 +55,10 @@ def answered(language: Any, code: str, text: str, parse: Parse, pending: Pending
             return parse
         case NoChoice.DROPPED:
             return Understood(text, (Drop(),))
+        case NoChoice.UNCLEAR if isinstance(parse, Understood) and _asks_options(parse.actions):
+            parameters = {getattr(action, "parameter", None) for each in choices for action in each.actions}
+            about = parameters.pop() if len(parameters) == 1 else None
+            return parse if about is None else Understood(text, (Ask(about="options", parameter=about),))
         case NoChoice.UNCLEAR:
             return parse if literal else AmbiguousParse(text, pending.question, tuple(choices))
         case NoSuchChoice(number=number):
@@ -63,3 +68,8 @@ def answered(language: Any, code: str, text: str, parse: Parse, pending: Pending
             return AmbiguousParse(text, f"{said} {pending.question}", tuple(choices))
         case actions:
             return Understood(text, actions)
+
+
+def _asks_options(actions: Sequence[Action]) -> bool:
+    """Whether it is asked what there is to choose from."""
+    return all(isinstance(action, Ask) and action.about == "options" for action in actions)
