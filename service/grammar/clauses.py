@@ -8,17 +8,18 @@ potholes"). Negated fragments are understood and then left out.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from service.grammar.composition import Composition, Matcher, asks, within
 from service.grammar.fragments import AND, BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, THEN, Fragment
 from service.grammar.frames import Filled
-from service.grammar.lattice import NUMBER, Edge, Lattice
+from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import QUANTITY, Amount
 from service.grammar.paths import NEGATION
+from service.grammar.places_apart import are_apart
 from service.grammar.stretches import Context, Stretches
 from service.grammar.work_budget import WorkBudget
 
@@ -34,7 +35,7 @@ _FURTHER = ("more", "another")
 _PLACED = ("place", "side", "length")
 
 CONTRAST = "contrast"
-ADD = "add"
+_COUNTING = ("add", "set_count")
 SCENARIO = "scenario"
 EVERYTHING = "everything"
 
@@ -54,6 +55,8 @@ class Clause:
     """whether it leans on what was said before this sentence"""
     instead: tuple[Clause, ...] = ()
     """what its parts mean alone, where that is another thing: which of them was meant is asked"""
+    forbids: tuple[Mapping[str, Any], ...] = ()
+    """what a negated part would do otherwise; its amounts may be any"""
 
     @property
     def supposes(self) -> str | None:
@@ -122,14 +125,22 @@ class Divider:
             heads = self._composition.heads(clause.filled, said)
             if not heads:
                 swallowed = self._composition.swallows((clause.filled, clause.actions), said)
-                return (self._or_apart(clause, said, context) if swallowed else clause), used
+                either = self._or_apart(clause, said, context) if swallowed else clause
+                if swallowed and not either.instead and self._composition.loses_first(clause.actions, said):
+                    end = at + 1
+                    continue
+                return either, used
             apart = self._requests(said, heads, context)
             if apart is None or _same(apart, clause):
-                swallowed = self._composition.swallows((clause.filled, clause.actions), said[: heads[0]])
-                return (self._or_apart(clause, said, context) if swallowed else clause), used
+                if self._composition.loses_first(clause.actions, said):
+                    end = at + 1
+                    continue
+                return clause, used
             own = self._composition.verb_of_its_own(said[0]) is not None
             optional = _optional(clause, apart)
-            leans = bool(context.verb) and self._composition.alone(said[0]) is None
+            leans = (
+                bool(context.verb) and parts[at].after != STOP and self._composition.alone(said[0]) is None
+            )
             if not (own or optional or context.verb) and said[heads[-1]].after in (PAUSE, AND):
                 return clause, used
             if own or said[heads[-1]].after not in (PAUSE, AND) or (optional and leans):
@@ -228,6 +239,8 @@ class Divider:
         at = first + used
         if used > 1 and parts[at - 1].after == PAUSE and self._begins_request(parts, at - 1):
             return True
+        if used > 1 and self._describes_hazard(parts, at - 1):
+            return True
         if (
             parts[at].after == PAUSE
             or parts[at].after not in _TOGETHER
@@ -239,11 +252,11 @@ class Divider:
 
     def _says_twice(self, before: Clause, clause: Clause, part: Fragment) -> bool:
         """Whether a part without a verb would be in the scenario before it, which has that already."""
-        if part.after not in (PAUSE, AND) or self._composition.verb_of_its_own(part) is not None:
+        if part.after not in (PAUSE, STOP, AND) or self._composition.verb_of_its_own(part) is not None:
             return False
         said = {key for action in before.actions if action["do"] == SCENARIO for key in action}
         return any(
-            action["do"] == ADD and "where" not in action and f"{action['kind']}s" in said
+            action["do"] in _COUNTING and "where" not in action and f"{action['kind']}s" in said
             for action in clause.actions
         )
 
@@ -363,7 +376,7 @@ class Divider:
     def _negate(self, part: Fragment, context: Context) -> Clause | None:
         """A fragment that says what not to do: understood, then left out."""
         start, end = part.start, part.end
-        if self._excepts(part, context):
+        if self._excepts(part, context) or self._says_nothing_but_no(part):
             return None
         for given in (Context(negated=True), Context(context.verb, context.noun, negated=True)):
             found = self._matcher.match(
@@ -372,17 +385,28 @@ class Divider:
             if found is not None and given.verb and self._takes_place_out(part, context):
                 return None
             if found is not None:
-                return Clause(start, end, found[0], [], negated=True)
+                forbids = () if given.verb else tuple(found[1])
+                return Clause(start, end, found[0], [], negated=True, forbids=forbids)
         return None
+
+    def _says_nothing_but_no(self, part: Fragment) -> bool:
+        """Whether a part has a negation and nothing that it could be about: "turn left, not, …"."""
+        covered = part.start
+        for edge in self._lattice.between(part.start, part.end):
+            if edge.sense.form or edge.concept not in (NEGATION, GLUE):
+                continue
+            if edge.start <= covered < edge.end:
+                covered = edge.end
+        return covered >= part.end
 
     def _takes_place_out(self, part: Fragment, context: Context) -> bool:
         """Whether it only says where something shall not be, which the place that was said leaves open."""
         said = list(self._lattice.between(part.start, part.end))
-        keys = _places(said)
+        where = _places(said)
         return (
-            bool(keys)
+            bool(where)
             and not any(edge.concept.startswith("thing") for edge in said)
-            and not keys <= context.places
+            and not (where.keys() <= context.places.keys() and are_apart(context.places, where))
         )
 
     def _excepts(self, part: Fragment, context: Context) -> bool:
@@ -427,14 +451,14 @@ def _context(clause: Clause, before: Context) -> Context:
     )
 
 
-def _places(edges: Iterable[Edge]) -> frozenset[str]:
-    """By what the places among some edges are given: "lane", "row", the concept of any other."""
-    placed = [edge for edge in edges if edge.concept in _PLACED]
-    return frozenset(
-        key
-        for edge in placed
-        for key in (edge.sense.value if isinstance(edge.sense.value, dict) else (edge.concept,))
-    )
+def _places(edges: Iterable[Edge]) -> dict[str, Any]:
+    """By what the places among some edges are given ("lane", the concept of any other), and what they are."""
+    places: dict[str, Any] = {}
+    for edge in edges:
+        if edge.concept in _PLACED:
+            value = edge.sense.value
+            places |= value if isinstance(value, dict) else {edge.concept: value}
+    return places
 
 
 def _same(apart: Sequence[Clause], joint: Clause) -> bool:

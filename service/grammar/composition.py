@@ -100,6 +100,14 @@ class Composition:
                 return True
         return False
 
+    def loses_first(self, joint: Sequence[Mapping[str, Any]], parts: Sequence[Fragment]) -> bool:
+        """Whether a listing does nothing of what its first part says, which is set off from the others."""
+        own = self.verb_of_its_own(parts[0])
+        if own is None or parts[1].after not in ("and", STOP):
+            return False
+        verbs = {action["do"] for action in joint}
+        return verbs.isdisjoint(action["do"] for action in own[1]) and not done_by(own[1], joint)
+
     def differs(self, part: Fragment, leaning: Reading) -> Reading | None:
         """What a part means alone where that is another thing than what it means leaning on the one before.
 

@@ -135,7 +135,12 @@ def _switch(action: Mapping[str, Any]) -> tuple[object, object] | None:
 def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | None:
     """A part that says what not to do, where another would do it all the same."""
     for at, clause in enumerate(clauses):
-        if not clause.negated or _says_how_many(clause, lattice):
+        if not clause.negated:
+            continue
+        for other in clauses:
+            if _does_it_all_the_same(other, clause):
+                return Contradiction((other, clause))
+        if _says_how_many(clause, lattice):
             continue
         frame, slots = clause.filled.frame, clause.filled.slots
         verbs = {str(template["do"]) for template in frame.actions if isinstance(template, dict)}
@@ -157,6 +162,11 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
             ):
                 return Contradiction((other, clause))
     return None
+
+
+def _does_it_all_the_same(clause: Clause, forbidding: Clause) -> bool:
+    """Whether a request does the very same that another part forbids."""
+    return any(action in forbidding.forbids and "count" not in action for action in clause.actions)
 
 
 def _touches(action: Mapping[str, Any], kinds: Set[object]) -> bool:

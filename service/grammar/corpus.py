@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, get_args
 
+from pydantic import ValidationError
+
 from service.actions import QUESTIONS, ChatKind, Choosable, MetricName, Term, ViewName, load
 from service.grammar.sentences import Sentences, Unsayable
 from service.styles import styles
@@ -74,7 +76,7 @@ def sentences(language: Sentences) -> Iterator[str]:
     for values in (*_things(), *_clock(), *_settings(), *_questions(), *_rest()):
         try:
             yield language.sentence(load([values]))
-        except Unsayable:
+        except (Unsayable, ValidationError):  # the question is none without one of its keys
             continue
 
 

@@ -1,7 +1,8 @@
 """Reads an unknown word that several words are one edit away from: as the one that makes a sentence.
 
 "Fater" may be "faster", "later" or "father"; "cruise 10 mph fater" is a request with one of them alone. Where two
-of them make different requests nothing is guessed. Words for numbers are never among them.
+of them make different requests nothing is guessed. Words for numbers are never among them. A letter left out,
+doubled or swapped is commoner than a wrong one, so where such words are near the others are not tried.
 """
 
 from __future__ import annotations
@@ -25,7 +26,9 @@ def read_likely(
     (token,) = unknown
     said = plain[token.start : token.end]
     meant: Understood | None = None
-    for word in typos.near(token.text)[:MOST_WORDS]:
+    near = typos.near(token.text)
+    slips = [word for word in near if len(word) != len(token.text) or sorted(word) == sorted(token.text)]
+    for word in (slips or near)[:MOST_WORDS]:
         parsed = read(plain[: token.start] + word + plain[token.end :])
         if not isinstance(parsed, Understood):
             continue

@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterator
 
 from service.grammar.accounting import MARKERS
 from service.grammar.data import LanguageData
-from service.grammar.frame_use import dropped
 from service.grammar.fragments import BEGINS_NEGATION
+from service.grammar.frame_use import dropped
 from service.grammar.frames import Frame
 from service.grammar.lanes_from_right import FROM_RIGHT
 from service.grammar.lattice import GLUE, NAME, NUMBER, UNIT
@@ -22,6 +22,7 @@ from service.grammar.old_values import FROM, OLD_VALUE
 from service.grammar.parse_types import Ambiguous, Parse, Understood
 from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR, SPEAKER
 from service.grammar.pointing import POINTING
+from service.grammar.time_clauses import TIME
 
 ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
@@ -42,6 +43,7 @@ ENGINE_CONCEPTS = frozenset(
         BEGINS_NEGATION,
         FROM,
         OLD_VALUE,
+        TIME,
     }
     | POINTING
     | MARKERS

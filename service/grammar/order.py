@@ -20,10 +20,17 @@ BEFOREHAND = "beforehand"
 
 
 def orders(clauses: Sequence[Clause], lattice: Lattice) -> list[list[Clause]]:
-    """The orders that may be meant, the likeliest first; one of them where nothing says otherwise."""
+    """The orders that may be meant, the likeliest first; one of them where nothing says otherwise.
+
+    None where something shall be done before nothing: "before that, turn left".
+    """
     said = list(clauses)
     if ORDER not in lattice.concepts:
         return [said]
+    first = said[0].end if len(said) == 1 else said[0].start
+    slots = [(edge.start, edge.end) for edge in said[0].filled.slots]
+    if any(_is_beforehand(edge, slots) for edge in lattice.between(0, first)):
+        return []
     for at in range(len(said) - 1, 0, -1):
         word = _word(said[at], lattice)
         if word is None or _in_a_list(said, at, word):
@@ -40,12 +47,10 @@ def orders(clauses: Sequence[Clause], lattice: Lattice) -> list[list[Clause]]:
     return [said]
 
 
-def leans_back(clauses: Sequence[Clause], lattice: Lattice) -> bool:
-    """Whether a sentence of one request puts it before what was done already: "reset before that"."""
-    if ORDER not in lattice.concepts or len(clauses) != 1:
-        return False
-    word = _word(clauses[0], lattice)
-    return word is not None and word.sense.value == BEFOREHAND
+def _is_beforehand(edge: Edge, slots: Sequence[tuple[int, int]]) -> bool:
+    """Whether an edge says that something comes before, and is no part of what is said."""
+    inside = any(start < edge.end and edge.start < end for start, end in slots)
+    return edge.concept == ORDER and edge.sense.value == BEFOREHAND and not inside
 
 
 def _begins(clauses: Sequence[Clause], first: int) -> list[int]:

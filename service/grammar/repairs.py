@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 from service.actions import Action
+from service.grammar.accounting import VERB
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
 from service.grammar.noun_phrases import QUANTITY
 from service.grammar.parse_types import Choice, Understood
@@ -30,11 +31,19 @@ PERHAPS = "perhaps"
 DROPPED = "dropped"
 """That of words after which stands what shall not be: "instead of"."""
 
+DENIED = "denied"
+"""That of words after which an amount stands that is not meant: "to 0.4, not 0.5", "not two but four"."""
+
 NUMBERS = "numbers"
 """That of words that take back only where a number follows: "no three"."""
 
+CAPTURES = "captures"
+"""Concept of verbs after which a name stands: "save this as"."""
+
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
+
+_AMOUNTS = frozenset((NUMBER, "length", "speed", "seconds", "fraction", "times", "part_of"))
 
 _DEFINITE = ("that", "those", "the", "of_the", "nearest", "all", "every", "both")
 """Quantities of things that are on the road already."""
@@ -84,7 +93,9 @@ class Repair:
             one = cls(plain, tokens, lattice, edge, work)
             if edge.sense.value == NUMBERS and not one._begins_with_number():
                 continue
-            if edge.sense.value == DROPPED and one._says_something(one._again, one._tail):
+            if edge.sense.value == DENIED and not one._denies_amount():
+                continue
+            if edge.sense.value in (DROPPED, DENIED) and one._says_something(one._again, one._tail):
                 return one
             if one._says_something(0, one._end) and one._says_something(one._again, one._tail):
                 return one
@@ -107,6 +118,8 @@ class Repair:
 
     def readings(self, read: Read) -> list[Choice] | None:
         """The sentences that may be meant; None where nothing was taken back after all."""
+        if self._value == DENIED:
+            return self._without(read) or None
         if self._value == DROPPED:
             return self._without(read)
         if self._value == ALWAYS and self._alike(read) is False:
@@ -119,15 +132,31 @@ class Repair:
         """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""
         said = ends_of_pieces(steps_of(self._lattice), self._again, self._work)
         found: list[Choice] = []
-        for end in sorted(end for end in said if end <= self._tail and self._stands_elsewhere(end)):
+        for end in sorted(end for end in said if end <= self._tail and self._is_apart(end)):
             before = self._written(0, self._edge.start if end < self._tail else self._end)
-            text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
+            text = f"{before} {self._written(self._past_separators(end), self._lattice.size)}".strip(" ,;")
             parsed = read(text)
             if not isinstance(parsed, Understood) or (self._points(end) and _adds(parsed.actions)):
                 continue
             if all(c.actions != parsed.actions for c in found):
                 found.append(Choice(text, parsed.actions))
         return found
+
+    def _is_apart(self, end: int) -> bool:
+        """Whether what is not wanted ends there: before other words of its kind, and not inside its request.
+
+        At the beginning it ends at a mark ("instead of adding a cone, add a bus") or before the verb of what
+        is wanted ("instead of A* use Dijkstra"): "instead of making it night" wants nothing.
+        """
+        if self._end == 0 and end < self._tail:
+            dropped = list(self._lattice.between(self._again, end))
+            if any(edge.concept.startswith((VERB, CAPTURES)) for edge in dropped):
+                return False
+            if all(edge.concept in SKIPPED or edge.sense.value is None for edge in dropped):
+                return False
+            if not any(edge.concept.startswith(VERB) for edge in self._lattice.edges[end]):
+                return False
+        return self._stands_elsewhere(end)
 
     def _points(self, end: int) -> bool:
         """Whether what is dropped are things on the road: "instead of that cone" is more than not to add one."""
@@ -235,6 +264,11 @@ class Repair:
     def _begins_with_number(self) -> bool:
         after = self._lattice.edges[self._again] if self._again < self._lattice.size else []
         return any(edge.concept == NUMBER for edge in after)
+
+    def _denies_amount(self) -> bool:
+        """Whether an amount follows and nothing else, up to the end of the part."""
+        here = self._lattice.edges[self._again] if self._again < self._lattice.size else []
+        return any(edge.concept in _AMOUNTS and edge.end == self._tail for edge in here)
 
     def _says_something(self, start: int, end: int) -> bool:
         return any(edge.concept not in SKIPPED for edge in self._lattice.between(start, end))

@@ -124,7 +124,13 @@ def _opens(lattice: Lattice, at: int, end: int) -> bool:
         return after < end and _longest(lattice, after, IF) is not None
     if _longest(lattice, at, IF) is None:
         return False
-    return any(_longest(lattice, later, THEN_WHAT) is not None for later in range(at + 1, end))
+    asked = (_longest(lattice, later, THEN_WHAT) for later in range(at + 1, end))
+    return any(each is not None and _ends_part(lattice, each.end, end) for each in asked)
+
+
+def _ends_part(lattice: Lattice, at: int, end: int) -> bool:
+    """Whether nothing follows, or a separator."""
+    return _past_marks(lattice, at, end) >= end or any(e.concept == SEPARATOR for e in lattice.edges[at])
 
 
 def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) -> Clause | Fragment | None:
@@ -203,7 +209,7 @@ def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, i
                 continue
             if _past_marks(lattice, asked.end, end) >= end:
                 yield edge.end, at, end
-            elif any(after.concept == SEPARATOR for after in lattice.edges[asked.end]):
+            elif _ends_part(lattice, asked.end, end):
                 yield edge.end, at, asked.end
 
 

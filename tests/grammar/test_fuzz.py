@@ -40,7 +40,7 @@ def test_the_same_seed_makes_the_same_sentences(language: Language) -> None:
 
 
 def test_a_mutation_knows_what_it_did(sayings: Sayings) -> None:
-    saying = sayings.read("turn left, then add two cars 10 metres ahead, to the left, and make it rain")
+    saying = sayings.read("turn left, then add two cars 10 metres ahead, and make it rain")
     assert saying is not None
     mutations = Mutations(vocabulary_of("en"), seed=1)
     made = [mutant for kind in mutations.kinds if (mutant := mutations.of(saying, kind)) is not None]

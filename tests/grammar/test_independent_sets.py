@@ -22,7 +22,6 @@ FOLDER = Path(__file__).parents[1] / "data" / "language"
 SETS = sorted(FOLDER.glob("*.jsonl"))
 
 KNOWN = {
-    "call it a day": 'an idiom: "call it NAME" saves',
     "start over before that": "what comes before is not said, and nobody asks",
     "move it to the left": "where nothing was spoken of, it is taken for the vehicle",
 }

@@ -115,7 +115,7 @@ def _without_emphasis(one: Actions, other: Actions) -> list[Mapping[str, Any]]:
 
 def _leans(one: Saying, other: Saying, got: Actions) -> bool:
     """Whether what has no verb got that of the first: "remove a cone and two cars"."""
-    if other.has_verb or list(got[: len(one.actions)]) != list(one.actions):
+    if (other.has_verb and not _asks_for_any(other)) or list(got[: len(one.actions)]) != list(one.actions):
         return False
     rest = got[len(one.actions) :]
     verbs = {action["do"] for action in one.actions}
@@ -123,6 +123,11 @@ def _leans(one: Saying, other: Saying, got: Actions) -> bool:
         said["do"] in verbs and (_about(said) == _about(own) or _is_any(said, own))
         for said, own in zip(rest, other.actions, strict=True)
     )
+
+
+def _asks_for_any(saying: Saying) -> bool:
+    """Whether it may be a question after what things there are."""
+    return all(action["do"] == "ask" and "kind" in action for action in saying.actions)
 
 
 def _is_any(said: Mapping[str, Any], own: Mapping[str, Any]) -> bool:
@@ -144,6 +149,10 @@ def _goes_on(one: Saying, other: Saying, got: Actions) -> bool:
     *before, last = one.actions
     inner = next((key for key in ("change", "meaning") if key in last), None)
     at = len(before)
+    if "move" in last and len(got) == at + 1 and "change" in got[at]:
+        return (
+            list(got[:at]) == before
+        )  # "what if you had gone left and …": the move is part of what is supposed
     if inner is None or list(got[:at]) != before or len(got) <= at:
         return False
     inside, own = got[at].get(inner, last[inner]), last[inner]

@@ -80,7 +80,7 @@ def _excuse(data: Mapping[str, Any]) -> Excuse:
     changes, beside = (frozenset(_texts(data.get(key, ()))) for key in ("changes", "beside"))
     return Excuse(
         str(data["because"]),
-        frozenset(str(data["kinds"]).split()),
+        frozenset(each.strip() for each in str(data["kinds"]).split(",")),
         changes,
         frozenset(str(data.get("does", "")).split()),
         beside,
