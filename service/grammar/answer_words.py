@@ -71,6 +71,9 @@ TWO = "two"
 ASKS_AGAIN = "asks_again"
 """Concept of what asks the last question again: "and now?"."""
 
+REWORDED = "reworded"
+"""Concept of how a replacement may begin; the beginning to read instead: "make them" cones."""
+
 TIMES = "times"
 """Concept of what does the last request again so many times; the number: "twice more"."""
 
@@ -117,6 +120,8 @@ class Answers:
     """sentences with a number of things (`{count}`, `{one}`, `{many}`), by what they are for"""
     one_after: tuple[str, ...] = ()
     """ways to complete what points at a thing without a noun (`{said}`): "the third" """
+    denies: frozenset[str] = frozenset()
+    """words before what was not meant: "five, not three" """
     continues: Mapping[str, str] = field(default_factory=dict)
     """by kind of request, the sentence that says another without its verb (`{said}`)"""
     shall: str = ""
@@ -140,6 +145,7 @@ class Answers:
             tuple(data.get("incomplete", ())),
             data.get("counted_things", {}),
             tuple(data.get("one_after", ())),
+            frozenset(data.get("denies", ())),
             data.get("continues", {}),
             data.get("shall", ""),
             tuple(data.get("completes", ())),

@@ -58,9 +58,7 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     if isinstance(parsed, Understood) and (unclear := ask_which_it(language, text, topic, parsed)):
         return unclear
     meant = _after_last(language, text, topic, parsed, alone=alone)
-    if isinstance(meant, Understood) and meant.actions == getattr(parsed, "actions", None):
-        return ask_whether(language, text, topic, meant) or meant
-    return meant
+    return (ask_whether(language, text, topic, meant) if isinstance(meant, Understood) else None) or meant
 
 
 def _after_last(language: Language, text: str, topic: Topic, parsed: Parse, *, alone: bool) -> Parse:

@@ -78,10 +78,13 @@ class Leaning:
         follows = answers.beginning(tokens, FOLLOWS)
         corrects = answers.beginning(tokens, CORRECTS, numbers)
         instead, too = answers.ending(tokens, INSTEAD), answers.ending(tokens, TOO)
-        if not (follows or corrects or instead or too or self._asks_on):
+        denies = any(token.text in answers.denies for token in tokens)
+        if not (follows or corrects or instead or too or denies or self._asks_on):
             return None
         correcting = bool(corrects > follows or instead)
         start = corrects if corrects > follows else follows
+        if not follows and (denied := self._denied()) is not None:
+            return Understood(self._text, done_anew(self._topic, denied))
         rest = tokens[start : len(tokens) - max(instead, too)]
         if not rest:
             return None
@@ -94,14 +97,48 @@ class Leaning:
         if base is None or not all(traits_of(action).amendable for action in done):
             return None
         named = self._written(rest)
-        other = to_other_things(self._language, named, self._spoken_of, done, self._answers.one_after)
-        if other is not None:
+        numbers = self._language.data.numbers
+        short = numbers.read(rest, 0) is not None or numbers.ordinal(rest[-1]) is not None
+        after = self._answers.one_after if short else ()
+        other = to_other_things(self._language, named, self._spoken_of, done, after)
+        if other is not None and other != done:
             return Understood(self._text, self._whole(other, correcting))
-        meant = self._amended(base, done, rest, goes_on=not correcting)
+        meant = self._amended_alike(base, done, rest, goes_on=not correcting)
         meant = meant or self._elsewhere(done, rest)
         if meant is not None:
             return Understood(self._text, self._whole(meant, correcting))
         return self._question(base, done, rest, correcting)
+
+    def _denied(self) -> Actions | None:
+        """The last request with one part in the place of another: "five, not three", "not cars, potholes"."""
+        at = next((at for at, token in enumerate(self._tokens) if token.text in self._answers.denies), None)
+        base = None
+        if at is not None and can_be_corrected(self._topic):
+            base = said_before(self._language, self._topic, self._work)
+        if at is None or base is None or not all(traits_of(each).amendable for each in self.done):
+            return None
+        before, after = self._tokens[:at], self._tokens[at + 1 :]
+        commas = [place for place, token in enumerate(after) if token.text == ","]
+        if before:
+            start = self._answers.beginning(before, CORRECTS)
+            meant, wrong = self._without_commas(before[start:]), after
+        elif commas:
+            meant, wrong = after[commas[0] + 1 :], after[: commas[0]]
+        else:
+            return None
+        if not meant or not wrong:
+            return None
+        said = self._read(f"{base}, {self._answers.replaces} {self._written(wrong)}")
+        if said != self.done:
+            return None
+        return self._amended_alike(base, self.done, meant, goes_on=False)
+
+    @staticmethod
+    def _without_commas(tokens: Sequence[Token]) -> Sequence[Token]:
+        end = len(tokens)
+        while end and tokens[end - 1].text == ",":
+            end -= 1
+        return tokens[:end]
 
     def _total(self, rest: Sequence[Token]) -> Parse | None:
         """What "make it twelve" means of things that were added: how many there shall be of their kind.
@@ -127,6 +164,21 @@ class Leaning:
     def _whole(self, meant: Actions, correcting: bool) -> Actions:
         return done_anew(self._topic, meant) if correcting else meant
 
+    def _amended_alike(
+        self, base: str, done: Actions, rest: Sequence[Token], *, goes_on: bool
+    ) -> Actions | None:
+        """`_amended`, of each of several equal requests; None where only some of one kind change."""
+        times = len(done)
+        if times > 1 and len(set(done)) == 1:
+            meant = self._amended(self._language.sentence(done[:1]), done[:1], rest, goes_on=goes_on)
+            return None if meant is None else meant * times
+        meant = self._amended(base, done, rest, goes_on=goes_on)
+        if meant is not None and times > 1 and len(set(shape(done))) == 1:
+            kept = sum(before == after for before, after in zip(done, meant, strict=False))
+            one_kind = len({getattr(each, "kind", None) for each in done}) == 1
+            return None if kept and one_kind else meant
+        return meant
+
     def _amended(self, base: str, done: Actions, rest: Sequence[Token], *, goes_on: bool) -> Actions | None:
         """The last request with what was said in the place of a part of it, or added to it."""
         if goes_on and self._tokens[0].text in self._language.joiners:
@@ -135,6 +187,7 @@ class Leaning:
                 parsed is not None
                 and parsed[: len(done)] == done
                 and shape(parsed[len(done) :]) == shape(done)
+                and parsed[len(done) :] != done
             ):
                 return parsed[len(done) :]
         for part in self._parts(rest):

@@ -17,6 +17,7 @@ from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Understood
 from service.grammar.references import MAX_CANDIDATES, REFERS
 from service.grammar.sentences import Unsayable
+from service.grammar.thing_talk import says_verb
 from service.grammar.tokens import normalise, tokenise
 from service.grammar.topic import Topic
 from sim.actions import Add, Direction, Drive, Landmark, MoveThings, Shift, Where
@@ -75,7 +76,7 @@ def ask_whether(language: Language, text: str, topic: Topic, parsed: Understood)
     asked = bool(topic.actions) and all(traits_of(each).is_question for each in topic.actions)
     if len(tokens) - follows > MAX_ALONE or (follows and not joined and not asked):
         return None
-    if any(concept.startswith("v.") for concept in language.concepts(text)):
+    if says_verb(language, text):
         return None
     return _question(language, text, language.data.answers.shall, [*parsed.actions], together=True)
 
