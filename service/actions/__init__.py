@@ -19,6 +19,7 @@ from service.actions.evaluation import Advise, Evaluate, FindWorst, ScenarioPart
 from service.actions.goals import Goal, Style
 from service.actions.questions import (
     QUESTIONS,
+    WHATS,
     Choosable,
     HistoryName,
     MetricName,
@@ -53,6 +54,7 @@ __all__ = [
     "ACTION_TYPES",
     "MAX_MEANT",
     "QUESTIONS",
+    "WHATS",
     "Action",
     "Advise",
     "Ask",

@@ -31,6 +31,7 @@ QuestionName = Literal[
     "outlook",
     "blame",
     "planners",
+    "quiz",
 ]
 OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how"]
 """What of the time ahead is asked about."""
@@ -154,6 +155,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "outlook": QuestionTraits(("what", "move"), ("what",), runs_episodes=True),
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
     "planners": QuestionTraits(("what", "planners", "planner", "tick"), ("what",), runs_episodes=True),
+    "quiz": QuestionTraits(runs_episodes=True),
 }
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {

@@ -71,9 +71,9 @@ def merge_places(parts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
     """The actions of a filled frame, in the order their things were said. Raises `CannotBuild`."""
     frame = filled.frame
+    if any(not _fits(filled, path, values) for path, values in frame.only.items()):
+        raise CannotBuild("a value the frame is not for")
     maker = _Maker(filled, parameters)
-    if frame.only and any(e.sense.value != frame.only.get(e.concept, e.sense.value) for e in filled.slots):
-        raise CannotBuild("a value that it does not take")
     if not frame.per:
         return [made for template in frame.actions for made in maker.actions(template)]
     turns = filled.of(*frame.per)
@@ -84,6 +84,13 @@ def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
     if len(turns) > 1 and maker.where() is not None:
         raise CannotBuild("one place for several things")
     return [maker.action(template, turn) for turn in turns for template in frame.actions]
+
+
+def _fits(filled: Filled, path: str, values: Sequence[Any]) -> bool:
+    """Whether what was said of a concept is among these values; what was not said is no matter."""
+    concept, _, attribute = path.partition(".")
+    said = (edge.sense.value for edge in filled.of(concept))
+    return all((getattr(value, attribute) if attribute else value) in values for value in said)
 
 
 def _ids(edge: Edge) -> tuple[str, ...]:

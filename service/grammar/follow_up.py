@@ -13,6 +13,7 @@ from service.actions import Advise, Ask
 from service.actions.table import traits_of
 from service.grammar.answer_words import INSTEAD, NO, PREFACE
 from service.grammar.engine import Language
+from service.grammar.foil_follow_up import ask_of_foil
 from service.grammar.incomplete import ask_elsewhere, ask_what_is_missing
 from service.grammar.last_request import asked_anew
 from service.grammar.leaning import Actions, Leaning
@@ -53,6 +54,8 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
         or _after_preface(language, text, topic)
     ):
         return said
+    if not topic.undone and (of_foil := ask_of_foil(language, text, topic, parsed)) is not None:
+        return of_foil
     if alone and (said := read_short(language, text, topic) or read_asked(language, text, topic)):
         return said
     if isinstance(parsed, Understood) and (unclear := ask_which_it(language, text, topic, parsed)):

@@ -53,10 +53,10 @@ class Frame:
     """Whether the speaker may be the one to do it: "let me …", "can I …"."""
     agree: Mapping[str, str] = field(default_factory=dict)
     """Concept → the concept that must be there with it."""
+    only: Mapping[str, tuple[Any, ...]] = field(default_factory=dict)
+    """Concept, or concept.attribute → the values with which alone it fits."""
     drops: frozenset[str] = frozenset()
     """Concepts that it takes although its actions do not say them: with them the request is the same."""
-    only: Mapping[str, Any] = field(default_factory=dict)
-    """Concept → the one value of it that it takes: advice is about what is ahead."""
     accepted: frozenset[str] = frozenset()
     """Every concept the frame has a use for."""
 
@@ -115,8 +115,11 @@ def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: M
         supposes=data.get("supposes"),
         speaker=bool(data.get("speaker", True)),
         agree=agree,
+        only={
+            path: tuple(values) if isinstance(values, list) else (values,)
+            for path, values in data.get("only", {}).items()
+        },
         drops=frozenset(_concepts(str(data.get("drops", "")), sets, set())),
-        only=data.get("only", {}),
         leaves_out=bool(data.get("leaves_out", False)),
         only_negated=bool(data.get("only_negated", False)),
         joins=bool(data.get("joins", False)),

@@ -40,6 +40,11 @@ NUMBERS = "numbers"
 CAPTURES = "captures"
 """Concept of verbs after which a name stands: "save this as"."""
 
+FOIL = "foil"
+"""Concept of a move that another one is compared with: "instead of right"."""
+_COMPARING = frozenset(("q.why", "had_moved"))
+"""Concepts of questions that compare; anywhere else such words say what shall not be."""
+
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
 
@@ -84,10 +89,11 @@ class Repair:
         """The first thing taken back with something in its place, if any."""
         if REPAIR not in lattice.concepts:
             return None
+        skipped = SKIPPED if lattice.concepts & _COMPARING else SKIPPED | {FOIL}
         edges = sorted((e for e in lattice.all() if e.concept == REPAIR), key=lambda e: (e.start, -e.end))
         for edge in edges:
             if any(
-                other.end > edge.end and other.concept not in SKIPPED for other in lattice.edges[edge.start]
+                other.end > edge.end and other.concept not in skipped for other in lattice.edges[edge.start]
             ):
                 continue  # the first word of something else: "wait a second"
             one = cls(plain, tokens, lattice, edge, work)

@@ -247,6 +247,8 @@ class Sentences(ThingSentences):
                 return self._say("term", term=self._word("terms", ask.term))
             case "history":
                 return self._history(ask)
+            case "outlook" | "blame" | "planners":
+                return self._of_what(ask)
             case "changes" if ask.count is not None or ask.tick is not None:
                 if ask.count is not None and ask.tick is not None:
                     raise Unsayable("changes are counted, or those since a tick")
@@ -313,6 +315,14 @@ class Sentences(ThingSentences):
         return self._word("history", key).format(
             tick=ask.tick, until=ask.until, ticks=ask.ticks, count=ask.count
         )
+
+    def _of_what(self, ask: Ask) -> str:
+        """A question of one of several about the same: what lies ahead, blame, planners."""
+        named = ask.planners or (() if ask.planner is None else (ask.planner,))
+        planners = self._words["and"].join([self._value("planner", planner) for planner in named])
+        key = str(ask.what) + ("_of" if named else "") + ("" if ask.tick is None else "_tick")
+        move = "" if ask.move is None else self._word("asked", ask.move)
+        return self._word(ask.about, key).format(planners=planners, tick=ask.tick, move=move)
 
     def _evaluate(self, action: Evaluate) -> str:
         planners = [self._value("planner", planner) for planner in action.planners or ()]

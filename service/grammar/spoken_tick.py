@@ -1,4 +1,4 @@
-"""Names the tick that a conversation is about where a sentence points back at it: "back then", "at that moment"."""
+"""Names the tick that is spoken of where a sentence points back at it: "back then", "at that moment"."""
 
 from __future__ import annotations
 

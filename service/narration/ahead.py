@@ -16,7 +16,7 @@ from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
 from service.narration.crash_ahead import CrashesAhead
-from service.narration.futures_told import end_told, share_told
+from service.narration.futures_told import counted_told, end_told, share_told, yes_and_no
 from service.narration.naming import Naming
 from service.narration.repair import Repairs
 from service.narration.sayings import Sayings
@@ -62,25 +62,25 @@ class Outlooks:
 
     def _safe(self, asked: Asked) -> tuple[str, Json]:
         found = safe_move(asked.timeline, asked.ask.move or Move.STAY)
-        return within([Part(0, self._safe_text(found)), Part(1, self._given_away(found))]), safe_move_json(
-            found
-        )
+        text = self._safe_text(found, yes_and_no(self._sayings, asked))
+        return within([Part(0, text), Part(1, self._given_away(found))]), safe_move_json(found)
 
-    def _safe_text(self, found: SafeMove) -> str:
+    def _safe_text(self, found: SafeMove, first: dict[str, str]) -> str:
+        """Yes or no, `first` as words, and why."""
         if found.off_road:
-            return self._say("safe", "off_road")
+            return self._say("safe", "off_road", **first)
         if found.hit is not None or found.then is None:
             ids = () if found.hit is None else found.hit.ids
             naming = Naming(self._sayings, found.state, as_seen=False)
             names = [name for name in ids if name not in found.state.egos or name != found.state.ego().id]
-            return self._say("safe", "hit", who=naming.things(names))
+            return self._say("safe", "hit", who=naming.things(names), **first)
         end = end_told(self._sayings, found.then, since=found.state.world.tick)
         if found.safe:
-            return self._say("safe", "good" if found.proved else "sampled", end=end)
+            return self._say("safe", "good" if found.proved else "sampled", end=end, **first)
         if found.then.by_chance:
             share = share_told(self._sayings, found.then.crashes, found.then.chances)
-            return self._say("safe", "crash_chance", share=share)
-        return self._say("safe", "crash", end=end)
+            return self._say("safe", "crash_chance", share=share, **first)
+        return self._say("safe", "crash", end=end, **first)
 
     def _given_away(self, found: SafeMove) -> str:
         return self._say("safe", "gives_away") if found.then is not None and found.open is False else ""
@@ -94,9 +94,9 @@ class Outlooks:
         first, last = sure.arrival_ticks or (0, 0)
         facts = {"metres": self._metres(state)}
         if first == last and sure.arrives == 1.0 and sure.futures is None:
-            return self._say(
-                "arrival", "sure", seconds=self._seconds(last, state), **facts
-            ), arrival_json(found)
+            return self._say("arrival", "sure", seconds=self._seconds(last, state), **facts), arrival_json(
+                found
+            )
         text = self._say(
             "arrival",
             "chance",
@@ -108,11 +108,7 @@ class Outlooks:
         return text, arrival_json(found)
 
     def _share(self, found: Arrival) -> str:
-        sure = found.confidence
-        if sure.futures is None:
-            return share_told(self._sayings, sure.arrives, None)
-        count = round(sure.arrives * sure.futures)
-        return self._sayings.say("confidence", "likely", "drawn", arrived=count, futures=sure.futures)
+        return counted_told(self._sayings, found.confidence.arrives, found.confidence.futures)
 
     def _never(self, found: Arrival) -> str:
         planner = self._sayings.planner(planner_of(found.state), "with")

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import TypeAlias
+
 from service.contract.encode.blame import blame_json, foreseen_json
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, plain
 from service.narration.charges import in_seconds
 from service.narration.crash import Crashes
+from service.narration.futures_told import yes_and_no
 from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
-from sim.explain.blame import Blame, Fault, Foreseen, blame, foreseen
+from sim.explain.blame import RERUN_TICKS, Blame, Fault, Foreseen, blame, foreseen
 from sim.explain.crash import SAVED_WITHIN, Crash
 from sim.state import SimState
+
+Words: TypeAlias = Mapping[str, str]
 
 
 class Blames:
@@ -27,30 +33,29 @@ class Blames:
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`. Where there was no crash, that is the answer."""
-        ask, timeline = asked.ask, asked.timeline
+        ask, timeline, first = asked.ask, asked.timeline, yes_and_no(self._sayings, asked)
         try:
             if ask.what == "foreseen":
                 seen = foreseen(timeline, ask.tick)
-                text, facts = self._foreseen(seen), foreseen_json(seen)
+                text, facts = self._foreseen(seen, first), foreseen_json(seen)
             else:
                 found = blame(timeline, ask.tick)
-                text, facts = self._text(str(ask.what), found), blame_json(found)
+                text, facts = self._text(str(ask.what), found, first), blame_json(found)
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, self._crashes.not_so(error))
         return plain(self._sayings, ask, timeline.state, text) | {"what": ask.what} | facts
 
-    def _text(self, what: str, found: Blame) -> str:
+    def _text(self, what: str, found: Blame, first: Words) -> str:
         if what == "fault":
             return within(self._fault(found))
         if what == "too_late":
             return self._too_late(found)
-        return within(self._avoidable(found))
+        return within(self._avoidable(found, first))
 
     def _fault(self, found: Blame) -> list[Part]:
         decision = found.decision
         parts: dict[str, object] = {"who": self._hit(found.crash, found.state)}
-        for form in ("did", "do"):
-            parts[form] = self._sayings.move(decision.move, form)
+        parts["did"] = self._sayings.move(decision.move, "did")
         if decision.fault is not None:
             parts["fault"] = self._sayings.fault(decision.fault)
         parts["planner"] = self._sayings.planner(decision.planner, "id")
@@ -72,17 +77,18 @@ class Blames:
 
     def _too_late(self, found: Blame) -> str:
         if found.avoidable.last is None:
-            return self._none(found, "too_late", "always")
+            return self._none(found, "too_late", "always", {})
         key = "after" if found.exact else "found"
         return self._say("too_late", key, **self._last(found))
 
-    def _avoidable(self, found: Blame) -> list[Part]:
+    def _avoidable(self, found: Blame, first: Words) -> list[Part]:
+        """Yes or no, `first` as words, and how."""
         last = found.avoidable.last
         if last is None:
-            return [Part(0, self._none(found, "avoidable", "none"))]
+            return [Part(0, self._none(found, "avoidable", "none", first))]
         when = "now" if found.ticks_before == 1 else "before"
         key = "stays" if last.stays else "moves"
-        told = [Part(0, self._say("avoidable", key, when, **self._last(found)))]
+        told = [Part(0, self._say("avoidable", key, when, **self._last(found), **first))]
         if not found.knowable:
             told.append(Part(1, self._say("avoidable", "hindsight")))
         saving = found.crash.saving
@@ -90,11 +96,12 @@ class Blames:
             told.append(Part(2, self._say("avoidable", "way", tick=saving.tick)))
         return told
 
-    def _none(self, found: Blame, table: str, proved: str) -> str:
+    def _none(self, found: Blame, table: str, proved: str, first: Words) -> str:
         """That there was no way out, or that none was found."""
         if found.avoidable.proved:
-            return self._say(table, proved)
-        looked = min(SAVED_WITHIN, found.crash.end - found.state.world.episode_start)
+            return self._say(table, proved, **first)
+        most = SAVED_WITHIN if found.state.config.free_ways_hold else RERUN_TICKS
+        looked = min(most, found.crash.end - found.state.world.episode_start)
         return self._say(table, "unknown", seconds=self._seconds(looked, found.state))
 
     def _last(self, found: Blame) -> dict[str, object]:
@@ -108,14 +115,16 @@ class Blames:
             "seconds": self._seconds(found.crash.end - last.tick, found.state),
         }
 
-    def _foreseen(self, found: Foreseen) -> str:
+    def _foreseen(self, found: Foreseen, first: Words) -> str:
         who = self._hit(found.crash, found.state)
         since = found.expected_since
         if since is None:
-            return self._say("foreseen", "unseen" if found.seen_since is None else "elsewhere", who=who)
+            key = "unseen" if found.seen_since is None else "elsewhere"
+            return self._say("foreseen", key, who=who, **first)
         before = found.crash.end - since
         seconds = self._seconds(before, found.state)
-        told = self._say("foreseen", "late" if before == 1 else "expected", who=who, tick=since, seconds=seconds)
+        key = "late" if before == 1 else "expected"
+        told = self._say("foreseen", key, who=who, tick=since, seconds=seconds, **first)
         return told if found.crash.free else f"{told} {self._say('foreseen', 'no_way')}"
 
     def _hit(self, crash: Crash, state: SimState) -> str:

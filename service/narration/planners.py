@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Final
 
 from service.actions import Ask
 from service.contract.encode.planners import character_json, own_move_json, planners_json
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
-from service.narration.futures_told import end_told, share_told
+from service.narration.futures_told import CONTRARY, end_told, share_told, yes_and_no
 from service.narration.inflection import capital
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
@@ -19,6 +20,9 @@ from sim.explain.own_move import OwnMove, own_move
 from sim.explain.planner_character import Character, character_of
 from sim.explain.planners import PlannerDrive, PlannersHere, planner_of, planners_here
 from sim.state import SimState
+
+JUDGED: Final = "judged"
+"""What a question supposes that asks whether a move was good."""
 
 
 class Planners:
@@ -43,7 +47,9 @@ class Planners:
             return self._character(ask, timeline.state)
         if ask.what == "own":
             found = own_move(timeline, ask.tick)
-            return self._own(found, judged=asked.supposes == "judged"), own_move_json(found)
+            judged = asked.supposes in (JUDGED, CONTRARY)
+            first = yes_and_no(self._sayings, asked) if judged else {}
+            return self._own(found, first), own_move_json(found)
         here = planners_here(timeline, ask.planners)
         return self._here(here, best=ask.what == "compare"), planners_json(here)
 
@@ -68,7 +74,9 @@ class Planners:
         if own:
             names = self._say("driving", planner=names)
         return capital(
-            self._say("line", planners=names, what=self._what(found, first, own), end=self._end(first.foresight))
+            self._say(
+                "line", planners=names, what=self._what(found, first, own), end=self._end(first.foresight)
+            )
         )
 
     def _what(self, found: PlannersHere, drive: PlannerDrive, own: bool) -> str:
@@ -118,11 +126,11 @@ class Planners:
     def _percent(self, share: float) -> str:
         return self._sayings.number(100 * share, ".1f" if 0 < share < 0.1 or 0.9 < share < 1 else ".0f")
 
-    def _own(self, found: OwnMove, *, judged: bool) -> str:
-        """What the planner would have done; `judged`: whether the move that was made was good, first."""
+    def _own(self, found: OwnMove, first: Mapping[str, str]) -> str:
+        """What the planner would have done; with words for yes and no, whether the move was good, first."""
         parts = []
-        if judged:
-            parts += [Part(0, self._say("judged", "good" if found.good else "bad"))]
+        if first:
+            parts += [Part(0, self._say("judged", "good" if found.good else "bad", **first))]
         elif not found.by_person:
             parts.append(Part(1, self._say("own", "by_planner", tick=found.made.tick)))
         parts.append(Part(0, self._instead(found)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.narration.answer_length import Part, within
-from service.narration.futures_told import end_told
+from service.narration.futures_told import clear_told, end_told
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from sim.explain.foresight import Foresight
@@ -22,7 +22,7 @@ class Repairs:
     def text(self, found: Repair) -> str:
         """What would help; that it is so already, where it is."""
         if found.reached:
-            return self._say("arrives" if found.aim == "arrive" else "clear", end=self._end(found.now))
+            return self._say("arrives" if found.aim == "arrive" else "clear", end=self._end(found.now, found))
         return within(self.parts(found))
 
     def parts(self, found: Repair) -> list[Part]:
@@ -32,7 +32,7 @@ class Repairs:
         shut = found.outlook is not None and not found.outlook.open
         if found.removed and found.then is not None:
             who = naming.things(found.removed)
-            parts.append(Part(0, self._say("without", who=who, end=self._end(found.then))))
+            parts.append(Part(0, self._say("without", who=who, end=self._end(found.then, found))))
             if found.searched:
                 parts.append(Part(3, self._say("fewer", SIZES[found.searched - 1])))
             if shut and found.aim == "arrive":
@@ -41,7 +41,7 @@ class Repairs:
             parts += self._none(found, naming, shut=shut)
         if found.planner is not None:
             planner = self._sayings.planner(found.planner.planner, "with")
-            end = self._end(found.planner.foresight)
+            end = self._end(found.planner.foresight, found)
             parts.append(Part(1, self._say("planner", planner=planner, end=end)))
         if found.wish is not None:
             wish = self._sayings.say("replies", "preferences", found.wish)
@@ -60,8 +60,8 @@ class Repairs:
             return [Part(0, self._say("shut")), Part(1, told)]
         return [Part(0, self._say("shut_by", who=naming.things(found.outlook.ids))), Part(1, told)]
 
-    def _end(self, seen: Foresight) -> str:
-        return end_told(self._sayings, seen)
+    def _end(self, seen: Foresight, found: Repair) -> str:
+        return (end_told if found.aim == "arrive" else clear_told)(self._sayings, seen)
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("ahead", "repair", *keys, **parts)

@@ -14,17 +14,24 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Final
 
-from sim.explain.avoidance import Avoidable, find_avoidance
+from sim.explain.alternatives import after_move
+from sim.explain.avoidance import UNKNOWN, Avoidable, Avoidance, find_avoidance
 from sim.explain.crash import SAVED_WITHIN, Crash, why_crashed
+from sim.explain.episode_rollout import rollout, summarize
+from sim.explain.foresight import driving
 from sim.forecast import predict
 from sim.perceive import sensor_named
 from sim.plan import Decision
 from sim.session.timeline import Timeline
-from sim.state import SimState
-from sim.types import Move
+from sim.state import SimState, StepResult
+from sim.types import Move, Outcome
 
 LOOK_BACK: Final = 40
 """Ticks before a crash in which it is looked for since when it was expected."""
+
+RERUN_TICKS: Final = 12
+"""Ticks before a crash whose other moves are run to the end, where ways cannot be searched."""
+_CLEAR: Final = (Outcome.SUCCESS, Outcome.STUCK)
 
 
 class Entered(StrEnum):
@@ -72,7 +79,7 @@ class Blame:
     avoidable: Avoidable
     """the last move instead of which another would have kept clear"""
     exact: bool
-    """whether nothing later could have, rather than nothing that was found"""
+    """whether it was searched that nothing later could have, rather than that nothing later was found"""
     knowable: bool
     """whether nothing that it takes to find this was left to chance or hidden from the sensor"""
     fault: Fault
@@ -103,7 +110,11 @@ def blame(timeline: Timeline, tick: int | None = None, *, ego: str | None = None
     decision, state = crash.explanation.decision, crash.explanation.moment
     states, whole = _before(timeline, state, decision.av)
     config = state.config
-    avoidable = find_avoidance(_decided(timeline, states, decision.av), whole=whole)
+    driven = list(_decided(timeline, states, decision.av))
+    avoidable = find_avoidance(driven, whole=whole)
+    searched = avoidable.proved
+    if not searched:
+        avoidable = _found_by_rerun(driven)
     entered = _entered(crash, timeline.led_to(state).state, decision)
     free = tuple(
         option.move
@@ -111,8 +122,10 @@ def blame(timeline: Timeline, tick: int | None = None, *, ego: str | None = None
         if option.verdict == "free" and option.move is not decision.move
     )
     knew = decision.chosen.reason.blocks
-    knowable = config.certain and sensor_named(config.sensor).faithful
-    exact = not config.reacting
+    last = avoidable.last
+    seen_free = last is not None and last.tick == decision.tick and knew and last.instead in free
+    knowable = seen_free or (config.certain and sensor_named(config.sensor).faithful)
+    exact = (searched and not config.reacting) or (last is not None and last.tick == decision.tick)
     fault = _fault(crash, decision, entered, knew, free, avoidable, knowable)
     return Blame(crash, state, decision, entered, knew, free, avoidable, exact, knowable, fault)
 
@@ -165,6 +178,27 @@ def _decided(timeline: Timeline, states: list[SimState], ego: str) -> Iterator[t
         decision = timeline.decided(state, ego)
         if decision is not None:
             yield state, decision
+
+
+def _found_by_rerun(driven: list[tuple[SimState, Decision]]) -> Avoidable:
+    """The last move instead of which another, run with everybody reacting as drawn, ends without a crash.
+
+    For roads on which ways cannot be searched; nothing is proved where none is found.
+    """
+    for state, decision in driven[:RERUN_TICKS]:
+        for option in decision.options:
+            if option.cell is None or option.move is decision.move:
+                continue
+            after = driving(after_move(state, option.move, decision.av), decision.av)
+            if summarize(after, _run(after, decision.av), ego=decision.av).outcome in _CLEAR:
+                found = Avoidance(state.world.tick, decision.move, option.move, stays=False)
+                return Avoidable(found, proved=True)
+    return UNKNOWN
+
+
+def _run(state: SimState, ego: str) -> list[tuple[SimState, StepResult]]:
+    """The ticks to the end of the episode; none where it has ended."""
+    return list(rollout(state, ego=ego)) if state.world.outcome is Outcome.RUNNING else []
 
 
 def _entered(crash: Crash, after: SimState, decision: Decision) -> Entered:

@@ -58,7 +58,7 @@ def foresee(state: SimState, ego: str | None = None, *, seen: bool = True) -> Fo
     if state.world.outcome is not Outcome.RUNNING:
         return Foresight(driven, summarize(driven, [], ego=ego), None)
     told = summarize(driven, list(rollout(driven, ego=ego)), ego=ego)
-    return Foresight(driven, told, chances(driven, ego, seen=seen))
+    return Foresight(driven, told, chances(driven, ego, seen=seen, part=1))
 
 
 def driving(state: SimState, ego: str | None = None) -> SimState:

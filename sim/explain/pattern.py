@@ -33,7 +33,7 @@ class Instance:
     ids: tuple[str, ...]
     """what it hung on; without it another move is made"""
     rather: Move | None
-    """the move that it was in the way of, or that is made without it"""
+    """the move that is made without it"""
 
     @property
     def tick(self) -> int:
@@ -115,13 +115,13 @@ def _instance(timeline: Timeline, state: SimState) -> Instance:
     decision = timeline.decided(state)
     if decision is None or decision.asked is not None:
         return Instance(state, (), None)
-    option = telling_option(state, decision)
-    if option is not None:
-        return Instance(state, tuple(option.causes), option.move)
     rerun = Intervention(state, decision, timeline.announced(state))
-    for name in by_salience(rerun.percept, decision)[:MOST_SINGLES]:
-        if (rather := rerun.without([name])) is not decision.move:
-            return Instance(state, (name,), rather)
+    option = telling_option(state, decision)
+    tried = [] if option is None else [tuple(option.causes)]
+    tried += [(name,) for name in by_salience(rerun.percept, decision)[:MOST_SINGLES]]
+    for ids in tried:
+        if (rather := rerun.without(ids)) is not decision.move:
+            return Instance(state, ids, rather)
     return Instance(state, (), None)
 
 

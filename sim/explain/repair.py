@@ -82,9 +82,7 @@ def repair(timeline: Timeline, aim: Aim, *, ego: str | None = None) -> Repair:
         each for each in drive_each(state, others_than(state, ego), ego) if reaches(each.foresight, aim)
     ]
     best = min(others, key=lambda each: each.foresight.story.driven, default=None)
-    return Repair(
-        state, aim, now, removed, then, searched, best, _wish(state, aim, ego), found, search.tried
-    )
+    return Repair(state, aim, now, removed, then, searched, best, _wish(state, aim, ego), found, search.tried)
 
 
 def _telling(state: SimState, now: Foresight, found: Outlook | None, ego: str | None) -> list[str]:

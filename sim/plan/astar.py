@@ -12,19 +12,41 @@ Koenig & Likhachev, "Adaptive A*" (2005).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Final
+
 from sim.config import Config
 from sim.forecast import Forecast
 from sim.plan.by_cost import decide_by_cost
 from sim.plan.decision import Decision, Measure
 from sim.plan.protocol import Traits
 from sim.search.astar import AdaptiveHeuristic, cheapest
-from sim.search.costs import weights
+from sim.search.continued import Known, continued, keep
+from sim.search.costs import Weights, weights
+from sim.search.graph import State
 from sim.search.reachability import least_ticks_by_move, steps_left
 from sim.search.time_expanded import TimeExpandedGraph
 from sim.search.waiting_cost import cost_of_staying
 from sim.types import MOVES, Move
 
 STAY = MOVES.index(Move.STAY)
+SEARCHED: Final = "searched"
+"""The kind of search under which lessons are kept."""
+
+
+def _begun(
+    forecast: Forecast, charges: Weights, limit: int
+) -> tuple[TimeExpandedGraph, AdaptiveHeuristic, State]:
+    """The terrain, what is known of it from earlier decisions on the same road, and where to begin in it."""
+    found = continued(SEARCHED, forecast, charges, limit)
+    if found is not None:
+        known, ahead = found
+        terrain, lessons = known.found
+        return terrain, lessons, ahead * forecast.road.columns * forecast.road.rows + forecast.ego
+    terrain, lessons = TimeExpandedGraph(forecast, charges, limit), AdaptiveHeuristic()
+    if not forecast.egos:
+        keep(SEARCHED, Known(forecast, charges, limit, (terrain, lessons)))
+    return terrain, lessons, terrain.start
 
 
 class AStarPlanner:
@@ -40,16 +62,20 @@ class AStarPlanner:
     def decide(self, forecast: Forecast, config: Config) -> Decision:
         """The move, and what each of the six costs in all."""
         limit = steps_left(config, forecast.episode_tick)
-        terrain = TimeExpandedGraph(forecast, weights(config), limit)
+        terrain, lessons, start = _begun(forecast, weights(config), limit)
         totals: list[int | None] = [None] * len(MOVES)
-        lessons = AdaptiveHeuristic()
-        ticks = least_ticks_by_move(forecast, limit)
-        for move, there, cost in terrain.steps(terrain.start):
+        ticks: Sequence[int | None] | None = None
+        for move, there, cost in terrain.steps(start):
+            if there in lessons.exact:
+                totals[move] = cost + lessons.exact[there]
+                continue
+            if ticks is None:
+                ticks = least_ticks_by_move(forecast, limit)
             if ticks[move] is None:
                 continue  # a heuristic search would try everything before it gave up
             way = cheapest(terrain, there, lessons=lessons)
             if way is not None:
                 totals[move] = cost + way.cost
         if totals[STAY] is None:
-            totals[STAY] = cost_of_staying(forecast, terrain.weights, limit)
+            totals[STAY] = cost_of_staying(forecast, weights(config), limit)
         return decide_by_cost(self.name, Measure.COST, forecast, totals, limit)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from sim.forecast import Forecast
 from sim.plan.decision import Decision, Measure, Option
-from sim.search.reachability import first_longest, survival_by_move
+from sim.search.reachability import longest_lasting
 from sim.types import MOVES
 
 
@@ -27,6 +27,6 @@ def decide_by_cost(
     if options[0].cost is not None:
         move = options[0].move
     else:
-        move = first_longest(survival_by_move(forecast, limit))
+        move = longest_lasting(forecast, limit)
         options.sort(key=lambda option: option.move is not move)
     return Decision(forecast.tick, forecast.ego_id, planner, move, tuple(options), measure=measure)

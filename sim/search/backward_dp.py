@@ -9,11 +9,12 @@ for all six moves.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from sim.forecast import Forecast
 from sim.rules.grid_dynamics import GridDynamics, GridMasks
 from sim.search.astar import cheapest, no_heuristic
+from sim.search.continued import Known, continued, keep
 from sim.search.costs import Weights
 from sim.search.reachability import on_shortest, reachability
 from sim.search.time_expanded import TimeExpandedGraph
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+SWEPT: Final = "swept"
+"""The kind of search under which sweeps are kept."""
 FAR = 1 << 40
 """More than any way costs."""
 
@@ -35,21 +38,56 @@ def totals_by_move(forecast: Forecast, weights: Weights, limit: int) -> tuple[in
     if not isinstance(forecast.dynamics, GridDynamics):
         return _searched_totals(forecast, terrain, limit)
     staying = cost_of_staying(forecast, weights, limit)
-    horizon = _horizon(forecast, terrain, limit)
-    if horizon == 0:
-        return tuple(staying if move is Move.STAY else None for move in MOVES)
-    first_entering = _sweep(forecast, terrain, horizon)
+    totals = _known_totals(forecast, terrain, limit)
+    if totals is None:
+        horizon = _horizon(forecast, terrain, limit)
+        if horizon == 0:
+            return tuple(staying if move is Move.STAY else None for move in MOVES)
+        entering = _sweep(forecast, terrain, horizon)
+        totals = _looked_up(forecast, terrain, entering[0])
+        if not forecast.egos:
+            keep(SWEPT, Known(forecast, weights, limit, entering))
+    if staying is not None:
+        totals[MOVES.index(Move.STAY)] = staying
+    return tuple(totals)
+
+
+def _known_totals(forecast: Forecast, terrain: TimeExpandedGraph, limit: int) -> list[int | None] | None:
+    """The totals from an earlier sweep; None where there is none, or it did not look far enough ahead.
+
+    No way of more ticks than were swept costs less than a tick for each of them.
+    """
+    found = continued(SWEPT, forecast, terrain.weights, limit)
+    if found is None:
+        return None
+    known, ahead = found
+    entering = known.found
+    left = len(entering) - ahead
+    if left <= 0 or forecast.ego // forecast.road.columns >= entering.shape[1]:
+        return None
+    totals = _looked_up(forecast, terrain, entering[ahead])
+    steps = forecast.steps(1 << forecast.ego)
+    swept = all(
+        total is not None and total <= (left + 1) * terrain.weights.tick
+        for there, total in zip(steps, totals, strict=True)
+        if there
+    )
+    return totals if swept else None
+
+
+def _looked_up(
+    forecast: Forecast, terrain: TimeExpandedGraph, entering: NDArray[np.int64]
+) -> list[int | None]:
+    """What every step costs in all. `entering`: what entering each cell now costs with the way on."""
     columns = forecast.road.columns
     totals: list[int | None] = []
     for there, step in zip(forecast.steps(1 << forecast.ego), terrain.moves, strict=True):
         total = FAR
         if there:
             row, column = divmod(there.bit_length() - 1, columns)
-            total = int(first_entering[row, column + 1]) + step.cost
+            total = int(entering[row, column + 1]) + step.cost
         totals.append(total if total < FAR else None)
-    if staying is not None:
-        totals[MOVES.index(Move.STAY)] = staying
-    return tuple(totals)
+    return totals
 
 
 def _searched_totals(forecast: Forecast, terrain: TimeExpandedGraph, limit: int) -> tuple[int | None, ...]:
@@ -69,7 +107,7 @@ def _horizon(forecast: Forecast, terrain: TimeExpandedGraph, limit: int) -> int:
     for move, there in zip(MOVES, forecast.steps(1 << forecast.ego) if limit else (), strict=False):
         if not there:
             continue
-        found = reachability(forecast, there, limit - 1, after=1)
+        found = reachability(forecast, there, limit - 1, after=1, whole=False)
         if found.ticks is None:
             continue
         needed = on_shortest(forecast, found, after=1)
@@ -92,7 +130,10 @@ def _charged(forecast: Forecast, terrain: TimeExpandedGraph, here: Board, needed
 
 
 def _sweep(forecast: Forecast, terrain: TimeExpandedGraph, horizon: int) -> NDArray[np.int64]:
-    """What entering each cell now costs with the cheapest way on (shape: rows, columns + 2; edges far)."""
+    """What entering each cell in each tick costs with the cheapest way on.
+
+    Shape: ticks, rows, columns + 2; the edges are far.
+    """
     import numpy as np
 
     road, weights = forecast.road, terrain.weights
@@ -135,5 +176,4 @@ def _sweep(forecast: Forecast, terrain: TimeExpandedGraph, horizon: int) -> NDAr
         np.minimum(best, on[:, 2:] + no_forward_right[ahead, 1:] + cost[Move.FORWARD_RIGHT], out=best)
         np.minimum(best, here[:, 1:-1] + cost[Move.STAY], out=best)
         np.minimum(best, FAR, out=value[1:, 1:-1])
-    first: NDArray[np.int64] = entering[0]
-    return first
+    return entering

@@ -11,12 +11,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from sim.config import Config
 from sim.forecast import Forecast
+from sim.rules.ego_step import beside
+from sim.rules.grid_dynamics import GridDynamics
 from sim.rules.limits import steps_left as steps_left_of
+from sim.search.no_way_left import known_to_last, look_ahead_if_asked_again, shut_in
+from sim.search.passages import locked_in, ways_past
 from sim.types import MOVES, Move
 from sim.world.grid import Board
+
+DOUBT_AFTER: Final = 8
+"""A way is looked for so many ticks longer than the rows there are before what never moves is looked at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,19 +46,47 @@ def steps_left(config: Config, episode_tick: int) -> int:
     return steps_left_of(config.rows, episode_tick)
 
 
-def reachability(forecast: Forecast, start: Board, limit: int, *, after: int = 0) -> Reachability:
-    """The sets reached from `start`, `after` ticks from now, by at most `limit` further steps."""
+def reachability(
+    forecast: Forecast, start: Board, limit: int, *, after: int = 0, whole: bool = True
+) -> Reachability:
+    """The sets reached from `start`, `after` ticks from now, by at most `limit` further steps.
+
+    Not `whole`: the layers end where it is proved that none of them meets row 0.
+    """
     goal = forecast.road.row(0)
     layers = [start]
     if start & goal:
         return Reachability((start,), 0)
+    doubtful = 0 if whole else start.bit_length() // forecast.road.columns + DOUBT_AFTER
     for there in forecast.spreads(start, after, after + limit):
         layers.append(there)
         if there & goal:
             return Reachability(tuple(layers), len(layers) - 1)
-        if not there:
+        if not there or (len(layers) == doubtful and not there & leading_on(forecast)):
             break
     return Reachability(tuple(layers), None)
+
+
+def leading_on(forecast: Forecast) -> Board:
+    """The cells from which a way leads past all that never moves; all where that is not known."""
+    road, percept = forecast.road, forecast.percept
+    if not isinstance(forecast.dynamics, GridDynamics):
+        return road.all
+    locked = locked_in(percept.right | percept.left, forecast.fixed, road.left_edge, road.right_edge)
+    return ways_past(road.columns, road.rows, forecast.fixed | locked).open
+
+
+def left_alone(forecast: Forecast) -> Board:
+    """The cells in which a vehicle may stand for ever: nothing that moves is in their part of the row."""
+    road, fixed = forecast.road, forecast.fixed
+    if forecast.egos or not isinstance(forecast.dynamics, GridDynamics):
+        return 0
+    moving = (forecast.percept.right | forecast.percept.left) & ~fixed
+    while True:  # movers never leave the stretch between two hazards
+        wider = beside(moving, road.left_edge, road.right_edge) & ~fixed
+        if wider == moving:
+            return road.all & ~(fixed | moving)
+        moving = wider
 
 
 def flood_fill(forecast: Forecast, start: Board) -> Board:
@@ -100,11 +136,71 @@ def shortest_plan(forecast: Forecast, limit: int) -> tuple[Move, ...] | None:
 
 def least_ticks_by_move(forecast: Forecast, limit: int) -> tuple[int | None, ...]:
     """Least ticks to the goal beginning with each move, in the order of `Move`; None: no way."""
-    found = []
-    for move, there in zip(MOVES, _first_steps(forecast, limit), strict=True):
-        ticks = reachability(forecast.after(move), there, limit - 1, after=1).ticks if there else None
+    found: list[int | None] = []
+    steps = _first_steps(forecast, limit)
+    staying = forecast.after(Move.STAY)
+    foreseen = steps if staying is forecast else steps[:-1]
+    hopeless: set[Board] = set()
+    if shut_in(forecast, _union(foreseen), limit):
+        hopeless.update(foreseen)
+    for move, there in zip(MOVES, steps, strict=True):
+        expected = staying if move is Move.STAY else forecast
+        if not there or (expected is forecast and there in hopeless):
+            found.append(None)
+            continue
+        ticks = reachability(expected, there, limit - 1, after=1, whole=False).ticks
         found.append(None if ticks is None else ticks + 1)
+        if ticks is None and not hopeless:  # then mostly no other move leads on either
+            hopeless.add(there)
+            if not _any_leads_on(forecast, foreseen, limit):
+                hopeless.update(foreseen)
     return tuple(found)
+
+
+def _any_leads_on(forecast: Forecast, starts: Sequence[Board], limit: int) -> bool:
+    """Whether any of these first steps has a way on to the goal."""
+    return reachability(forecast, _union(starts), limit - 1, after=1, whole=False).ticks is not None
+
+
+def _union(boards: Sequence[Board]) -> Board:
+    found = 0
+    for board in boards:
+        found |= board
+    return found
+
+
+def longest_lasting(forecast: Forecast, limit: int) -> Move:
+    """The first of the moves after which one can keep clear longest; `stay` if none lasts at all.
+
+    Precondition: no move leads to the goal.
+    """
+    best, move = 0, Move.STAY
+    safe = left_alone(forecast)
+    look_ahead_if_asked_again(forecast, limit)
+    known = known_to_last(forecast, limit)
+    for each, there in zip(MOVES, _first_steps(forecast, limit), strict=True):
+        expected = forecast.after(each)
+        lasts = 0
+        if there:
+            to_the_end = expected is forecast and there & known
+            lasts = limit if to_the_end else _lasting(expected, there, limit - 1, safe) + 1
+        if lasts > best:
+            best, move = lasts, each
+        if best == limit:
+            break
+    return move
+
+
+def _lasting(forecast: Forecast, start: Board, limit: int, safe: Board) -> int:
+    """For how many ticks from the next on one can keep clear; in a cell of `safe` it is to the end."""
+    if start & safe:
+        return limit
+    for lasted, there in enumerate(forecast.spreads(start, 1, 1 + limit)):
+        if there & safe:
+            return limit
+        if not there:
+            return lasted
+    return limit
 
 
 def survival_by_move(forecast: Forecast, limit: int) -> tuple[int, ...]:
@@ -118,8 +214,3 @@ def survival_by_move(forecast: Forecast, limit: int) -> tuple[int, ...]:
 def _first_steps(forecast: Forecast, limit: int) -> Sequence[Board]:
     """Where each move leads now, in the order of `Move`; nowhere once no step is left."""
     return forecast.own_steps() if limit else (0,) * len(MOVES)
-
-
-def first_longest(ticks: Sequence[int]) -> Move:
-    """The move after which one lasts longest; `stay` if none lasts at all."""
-    return MOVES[ticks.index(max(ticks))] if any(ticks) else Move.STAY

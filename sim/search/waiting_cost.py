@@ -19,7 +19,10 @@ _STAY = MOVES.index(Move.STAY)
 def cost_of_staying(forecast: Forecast, weights: Weights, limit: int) -> int | None:
     """The cost of staying now and the cheapest way on; None where no mover brakes, or no way leads on."""
     standing = forecast.standing
-    if standing is None or reachability(standing, 1 << forecast.ego, limit - 1, after=1).ticks is None:
+    if standing is None:
+        return None
+    start = 1 << forecast.ego
+    if reachability(standing, start, limit - 1, after=1, whole=False).ticks is None:
         return None  # a heuristic search would try everything before it gave up
     terrain = TimeExpandedGraph(standing, weights, limit)
     for move, there, cost in terrain.steps(terrain.start):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from service.contract.encode.decision import options_json
@@ -11,8 +12,14 @@ from sim.explain.other_movers import MoverMove, MoverWay
 from sim.explain.pattern import Pattern
 from sim.explain.riskiest import Risk
 from sim.explain.similar import Similar
+from sim.world import Thing
 
 Json = dict[str, Any]
+
+
+def shown_json(things: Sequence[Thing]) -> Json:
+    """What to point at while an answer is read, and where it stood."""
+    return {"ids": [thing.id for thing in things], "cells": [thing.cell for thing in things]}
 
 
 def move_json(found: OtherMove) -> Json:
@@ -28,6 +35,7 @@ def move_json(found: OtherMove) -> Json:
         "foil": stakes.foil,
         "causes": [{"id": each.id, "kind": each.kind, "cell": each.cell, "role": "blocks"} for each in there],
         "alternatives": options_json(decision, [""] * len(decision.options)),
+        "shown": shown_json(there),
         "stakes": stakes_json(stakes),
         "play": {"at_tick": decision.tick, "move": stakes.foil},
         "said_since": found.said_since,
@@ -44,6 +52,7 @@ def mover_json(found: MoverMove) -> Json:
         "mover": {"id": found.id, "kind": found.was.kind, "from": found.was.cell, "to": found.now.cell},
         "move": found.move,
         "turned": found.turned,
+        "shown": shown_json([found.was, *blockers]),
         "reason": found.reason,
         "causes": [
             {
@@ -70,6 +79,7 @@ def way_of_mover_json(found: MoverWay) -> Json:
         "steps": found.steps,
         "turn": turn,
         "causes": [] if turn is None else turn["causes"],
+        "shown": shown_json([thing] if (thing := found.state.world.find(found.id)) is not None else []),
         "by_chance": found.by_chance,
     }
 
