@@ -162,7 +162,7 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
         if edge.end <= marker.end
     )
     if marker.concept in (AMOUNT, MEASURE):
-        passed = free | {GLUE}
+        passed = free | ({GLUE, SECOND} if marker.end == marker.start + 1 else {GLUE})
         before = [e for e in _reaching_into(lattice, marker) if e.concept == GLUE]  # "time to 3 ticks"
         return before + [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
     loose = free | {GLUE, SECOND, SPEAKER}
