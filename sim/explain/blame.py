@@ -164,7 +164,7 @@ def _before(
     With whether they begin with the episode.
     """
     end, start = fatal.world.tick + 1, fatal.world.episode_start
-    found = []
+    found: list[SimState] = []
     for state in reversed(list(timeline.between(max(start, end - most), end))):
         same = (state.config, state.world.episode) == (fatal.config, fatal.world.episode)
         if not same or state.edits != fatal.edits or ego not in state.egos:

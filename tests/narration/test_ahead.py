@@ -153,4 +153,4 @@ def test_the_figures_of_a_planner_are_those_of_the_file() -> None:
 
 def test_what_each_question_may_ask_is_answered() -> None:
     told = {ask.what for ask in asks()}
-    assert told == {what for about in ("outlook", "blame", "planners") for what in WHATS[about]}  # type: ignore[index]
+    assert told == {what for about in ("outlook", "blame", "planners") for what in WHATS[about]}
