@@ -18,7 +18,9 @@ FURTHEST = 4.5
 """Standard deviations by which a share may be off: once in 150,000 by chance."""
 
 
-def judge_stated(state: SimState, move: Move | None, stated: Chances | None, text: str) -> Iterator[tuple[str, str | None]]:
+def judge_stated(
+    state: SimState, move: Move | None, stated: Chances | None, text: str
+) -> Iterator[tuple[str, str | None]]:
     """Whether a stated chance of arriving is told, and is that of futures drawn anew.
 
     `move`: the one made first; None for what the ego makes of it, with who reacts in the coming tick seen.
