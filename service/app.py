@@ -160,6 +160,7 @@ def create_app(
     context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers)
 
     app = FastAPI(
+        separate_input_output_schemas=False,
         title="Roadtalk",
         version=VERSION,
         description=_DESCRIPTION,

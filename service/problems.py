@@ -24,8 +24,9 @@
     │   ├── NotTeachable                 a phrase that cannot be taught, or forgotten
     │   ├── IdempotencyKeyReused         an idempotency key that was another request's
     │   └── RecordingMismatch            replayed to another digest than it says
-    ├── TooManySessions             429  the limit of live sessions is reached
+    ├── TooManySessions             429  the limit of live sessions is reached: `Retry-After`
     ├── RateLimited                 429  a client asks too often: `Retry-After`
+    ├── TooManyWrongKeys            429  a client tries keys: `Retry-After`
     ├── QuotaExceeded               429  a client has as much as it may have
     ├── Internal                    500  a defect here; says nothing of its inside
     ├── NotSaved                    503  the store did not take it; nothing was changed
@@ -254,6 +255,14 @@ class TooManySessions(ProblemError):
 
     status, slug, title = 429, "too-many-sessions", "Too many sessions"
 
+    def __init__(self, most: int, wait_s: int) -> None:
+        """`wait_s`: seconds until one of them may leave memory."""
+        super().__init__(
+            f"{most} sessions are live and in use, which is the limit here. Pause or delete one, or try "
+            f"again in {wait_s} s. The setting is ROADTALK_MAX_SESSIONS.",
+            headers={"Retry-After": str(wait_s)},
+        )
+
 
 class RateLimited(ProblemError):
     """A client sends changes faster than its rate limit."""
@@ -263,6 +272,18 @@ class RateLimited(ProblemError):
     def __init__(self, wait_s: int) -> None:
         super().__init__(
             f"Too many changes in a short time; nothing was done. Try again in {wait_s} s.",
+            headers={"Retry-After": str(wait_s)},
+        )
+
+
+class TooManyWrongKeys(ProblemError):
+    """A client has sent wrong keys faster than its rate limit; for a while not even the right one is read."""
+
+    status, slug, title = 429, "too-many-wrong-keys", "Too many wrong keys"
+
+    def __init__(self, wait_s: int) -> None:
+        super().__init__(
+            f"Too many wrong keys from this address; nothing was done. Try again in {wait_s} s.",
             headers={"Retry-After": str(wait_s)},
         )
 
@@ -331,6 +352,7 @@ KINDS: tuple[type[ProblemError], ...] = (
     RecordingMismatch,
     TooManySessions,
     RateLimited,
+    TooManyWrongKeys,
     QuotaExceeded,
     Internal,
     NotSaved,

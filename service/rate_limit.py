@@ -21,11 +21,15 @@ class TokenBucket:
 
     def take(self) -> int:
         """0 if one more may pass, which is counted; otherwise the whole seconds until one may."""
+        wait_s = self.wait_s()
+        if not wait_s:
+            self._left -= 1
+        return wait_s
+
+    def wait_s(self) -> int:
+        """Whole seconds until one more may pass; counts nothing."""
         now = self._now()
         per_second = self._max / 60
         self._left = min(self._max, self._left + (now - self._seen) * per_second)
         self._seen = now
-        if self._left < 1:
-            return max(1, math.ceil((1 - self._left) / per_second))
-        self._left -= 1
-        return 0
+        return 0 if self._left >= 1 else max(1, math.ceil((1 - self._left) / per_second))

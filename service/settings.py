@@ -6,9 +6,17 @@ reads the environment. The table in the documentation is made from the descripti
 
 from __future__ import annotations
 
+import ipaddress
 from typing import Literal
 
-from pydantic import AliasChoices, Field, HttpUrl, SecretStr, ValidationError, field_validator
+from pydantic import (
+    AliasChoices,
+    Field,
+    HttpUrl,
+    SecretStr,
+    ValidationError,
+    field_validator,
+)
 from pydantic_settings import BaseSettings, SettingsConfigDict
 
 
@@ -29,7 +37,9 @@ class Settings(BaseSettings):
         description="Where sessions are kept: `sqlite:///<file>`, `postgresql://<host>/<name>` or `memory:`.",
     )
     max_sessions: int = Field(
-        default=1_000, ge=1, description="Maximum number of live sessions. Further ones are refused."
+        default=1_000,
+        ge=1,
+        description="Maximum number of live sessions. Idle sessions make room for others.",
     )
     max_text_chars: int = Field(
         default=500, ge=1, le=10_000, description="Maximum length of one utterance, in characters."
@@ -113,7 +123,8 @@ class Settings(BaseSettings):
     )
     trusted_proxies: str | None = Field(
         default=None,
-        description="Comma-separated addresses of proxies whose `X-Forwarded-For` is trusted. Default: none.",
+        description="Comma-separated addresses or networks of proxies whose `X-Forwarded-For` is trusted; "
+        "`*` trusts all. Default: none.",
     )
     changes_per_minute: int | None = Field(
         default=None,
@@ -161,3 +172,26 @@ class Settings(BaseSettings):
         if url.username or url.password or url.query or url.fragment:
             raise ValueError("must hold no user name, password, query or fragment; a key has its own setting")
         return str(url).rstrip("/")
+
+    @field_validator("trusted_proxies")
+    @classmethod
+    def _addresses(cls, value: str | None) -> str | None:
+        """Refuses what is no address: the server would silently trust nobody."""
+        for each in (value or "").split(","):
+            part = each.strip()
+            if part in ("", "*"):
+                continue
+            try:
+                ipaddress.ip_network(part, strict=False)
+            except ValueError:
+                raise ValueError(
+                    f"{part!r} is no IP address or network, such as 10.0.0.1 or 10.0.0.0/8"
+                ) from None
+        return value
+
+    @property
+    def missing_model_setting(self) -> str | None:
+        """The setting without which the language model that is named in part is not used."""
+        if bool(self.llm_base_url) == bool(self.llm_model):
+            return None
+        return "ROADTALK_LLM_MODEL" if self.llm_base_url else "ROADTALK_LLM_BASE_URL"

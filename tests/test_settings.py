@@ -39,3 +39,20 @@ def test_a_slip_in_a_settings_name_is_told() -> None:
         "ROADTALK_MAX_SESIONS is no setting; did you mean ROADTALK_MAX_SESSIONS?",
         "ROADTALK_ZZZ is no setting.",
     ]
+
+
+@pytest.mark.parametrize("proxies", ["10.0.0.1", "10.0.0.0/8, ::1", "*", "", None])
+def test_proxies_are_addresses(proxies: str | None) -> None:
+    assert Settings(trusted_proxies=proxies).trusted_proxies == proxies
+
+
+@pytest.mark.parametrize("proxies", ["nonsense", "10.0.0.1, proxy", "10.0.0.300", "10.0.0.1;10.0.0.2"])
+def test_proxies_that_are_no_addresses_are_refused(proxies: str) -> None:
+    with pytest.raises(ValidationError, match="no IP address"):
+        Settings(trusted_proxies=proxies)
+
+
+def test_half_a_language_model_is_noticed() -> None:
+    assert Settings(llm_model="small").missing_model_setting == "ROADTALK_LLM_BASE_URL"
+    assert Settings(llm_base_url="http://127.0.0.1/v1").missing_model_setting == "ROADTALK_LLM_MODEL"
+    assert Settings().missing_model_setting is None

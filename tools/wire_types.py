@@ -32,9 +32,8 @@ _PRIMITIVES = {
 
 def wire_types(schemas: Mapping[str, Schema]) -> str:
     """TypeScript declarations of schemas, by name."""
-    named = {_type_name(name): schema for name, schema in sorted(schemas.items())}
-    actions = next((found for schema in named.values() for found in _action_unions(schema)), None)
-    declarations = [_declaration(name, schema) for name, schema in sorted(named.items())]
+    actions = next((found for schema in schemas.values() for found in _action_unions(schema)), None)
+    declarations = [_declaration(name, schema) for name, schema in sorted(schemas.items())]
     if actions is not None:
         declarations.append(
             f"/** One action of the language contract. */\nexport type Action = {_union(actions)};"
@@ -57,11 +56,6 @@ def _action_unions(schema: Any) -> Iterator[Schema]:
 def _is_action(schema: Schema) -> bool:
     discriminator = schema.get("discriminator")
     return isinstance(discriminator, Mapping) and discriminator.get("propertyName") == "do"
-
-
-def _type_name(name: str) -> str:
-    """`Ask-Input` and `Ask-Output`, forms of one model, as one identifier."""
-    return name.removesuffix("-Input").removesuffix("-Output")
 
 
 def _declaration(name: str, schema: Schema) -> str:
@@ -98,7 +92,7 @@ def _type(schema: Any, indent: str) -> str:
     if not isinstance(schema, Mapping):
         return "unknown"
     if "$ref" in schema:
-        return _type_name(schema["$ref"].rpartition("/")[2])
+        return str(schema["$ref"].rpartition("/")[2])
     if _is_action(schema):
         return "Action"
     if "anyOf" in schema or "oneOf" in schema:

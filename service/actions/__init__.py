@@ -11,6 +11,7 @@ from service.actions.action import (
     Forget,
     Phrase,
     Teach,
+    Which,
     dump,
     load,
 )
@@ -18,6 +19,7 @@ from service.actions.evaluation import Advise, Evaluate, FindWorst, ScenarioPart
 from service.actions.goals import Goal, Style
 from service.actions.questions import (
     QUESTIONS,
+    WHATS,
     Choosable,
     HistoryName,
     MetricName,
@@ -52,6 +54,7 @@ __all__ = [
     "ACTION_TYPES",
     "MAX_MEANT",
     "QUESTIONS",
+    "WHATS",
     "Action",
     "Advise",
     "Ask",
@@ -88,6 +91,7 @@ __all__ = [
     "Undo",
     "ViewName",
     "Where",
+    "Which",
     "dump",
     "load",
 ]

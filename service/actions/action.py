@@ -6,11 +6,11 @@ Grammar, language model, voice and typed REST calls all produce an `Action`. Act
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, Literal, TypeAlias, get_args
 
-from annotated_types import Ge, Le, MaxLen, MinLen
+from annotated_types import Ge, Gt, Le, MaxLen, MinLen
 from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
@@ -19,9 +19,16 @@ from service.actions.goals import Goal, Style
 from service.actions.questions import (
     HISTORY_KEYS,
     QUESTIONS,
+    WHAT_KEYS,
+    WHATS,
+    BlameName,
     Choosable,
+    DetailName,
     HistoryName,
     MetricName,
+    OtherName,
+    OutlookName,
+    PlannersName,
     QuestionName,
     QuestionTraits,
     Term,
@@ -43,12 +50,28 @@ from service.actions.steering import (
     Ticks,
     Undo,
 )
-from sim.actions import Parameter, PlaceableKind, WorldAction
+from sim.actions import Parameter, PlaceableKind, Where, WorldAction
+from sim.planner_names import PlannerName
 from sim.types import Move
 
 Phrase = Annotated[str, MinLen(1), MaxLen(80)]
 MAX_MEANT = 50
 """How many actions a what-if or a taught phrase may hold."""
+MAX_PLANNERS = 8
+"""How many planners one question may name."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Which(Where):
+    """A road user that is asked about: the nearest one of a kind at a place, or one by its id."""
+
+    kind: PlaceableKind | None = None
+
+    __pydantic_config__ = STRICT
+
+    def __post_init__(self) -> None:
+        if self.kind is None and self.id is None:
+            raise ValueError("say 'kind' or 'id'")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +81,8 @@ class Ask:
     do: Literal["ask"] = "ask"
     about: QuestionName
     move: Move | None = None
+    instead: Move | None = None
+    """the move that another one is compared with"""
     tick: Annotated[int, Ge(0)] | None = None
     change: Annotated[tuple[Action, ...], MinLen(1), MaxLen(MAX_MEANT)] | None = None
     kind: PlaceableKind | None = None
@@ -66,13 +91,20 @@ class Ask:
     value: int | float | str | None = None
     """the value that a setting is asked to have: answered by yes or no first"""
     term: Term | None = None
-    what: HistoryName | None = None
+    what: HistoryName | OtherName | OutlookName | BlameName | PlannersName | None = None
     until: Annotated[int, Ge(0)] | None = None
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None
     """how far back a question about the past goes, instead of from `tick`"""
+    seconds: Annotated[float, Gt(0), Le(100_000)] | None = None
+    """the same in seconds"""
     count: Annotated[int, Ge(1), Le(1000)] | None = None
-    """how many of the latest changes are meant"""
+    """how many of the latest changes are meant, or moments looked for; 1 of a kind of things: the nearest"""
+    how: DetailName | None = None
+    which: Which | None = None
+    planners: Annotated[tuple[PlannerName, ...], MinLen(1), MaxLen(MAX_PLANNERS)] | None = None
+    """the planners that are asked about, where not all of them"""
+    planner: PlannerName | None = None
 
     __pydantic_config__ = STRICT
 
@@ -86,15 +118,28 @@ class Ask:
                 raise ValueError(f"a question about {self.about} needs '{key}'")
         if self.about == "setting" and self.parameter in get_args(Choosable):
             raise ValueError(f"'{self.parameter}' has options and no value")
+        if self.about == "scene" and self.count is not None and (self.count != 1 or self.kind is None):
+            raise ValueError("a question about the scene counts one thing, the nearest of a kind")
+        if self.about == "what_if" and (self.change is None) is (self.move is None):
+            raise ValueError("say exactly one of 'change' and 'move'")
         if self.what is not None:
-            self._check_ticks(self.what)
+            self._check_what(self.what)
+        if sum(each is not None for each in (self.tick, self.ticks, self.seconds)) > 1:
+            raise ValueError("say one of 'tick', 'ticks' and 'seconds'")
         _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))
 
-    def _check_ticks(self, what: HistoryName) -> None:
-        """Raise `ValueError` unless the ticks are named that a question about the past needs."""
-        named = frozenset(key for key in ("tick", "until", "ticks") if getattr(self, key) is not None)
-        if named not in HISTORY_KEYS[what]:
-            ways = " or ".join(" and ".join(sorted(keys)) or "no tick" for keys in HISTORY_KEYS[what])
+    def _check_what(self, what: str) -> None:
+        """Raise `ValueError` unless `what` belongs to the question and all is named that it needs."""
+        if what not in WHATS[self.about]:
+            raise ValueError(f"'{what}' does not belong to a question about {self.about}")
+        if self.about == "other":
+            return  # its keys do not depend on what is asked
+        keys: Mapping[str, tuple[frozenset[str], ...]] = (
+            HISTORY_KEYS if self.about == "history" else WHAT_KEYS
+        )
+        named = frozenset(key for key in _BESIDE_WHAT if getattr(self, key) is not None)
+        if named not in keys[what]:
+            ways = " or ".join(" and ".join(sorted(each)) or "nothing more" for each in keys[what])
             raise ValueError(f"a question about {what} names {ways}")
         if self.tick is not None and self.until is not None and self.until < self.tick:
             raise ValueError("a stretch of ticks ends after it begins")
@@ -102,6 +147,8 @@ class Ask:
 
 _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "about"))
 """All that a question may name."""
+_BESIDE_WHAT = ("move", "tick", "until", "ticks", "planners", "planner")
+"""Keys that some values of `what` need, and others must not have."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Final, Literal, get_args
 
 MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance"]
 QuestionName = Literal[
@@ -25,9 +25,26 @@ QuestionName = Literal[
     "styles",
     "changes",
     "pending",
+    "detail",
+    "other",
+    "pattern",
+    "outlook",
+    "blame",
+    "planners",
+    "quiz",
 ]
-HistoryName = Literal["closest_call", "summary", "since", "between", "seen"]
+OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how"]
+"""What of the time ahead is asked about."""
+BlameName = Literal["fault", "too_late", "foreseen", "avoidable"]
+"""What about a crash is asked."""
+PlannersName = Literal["here", "compare", "character", "own"]
+"""What about planners is asked; `own`: what this session's would have done where a person drove."""
+HistoryName = Literal["closest_call", "summary", "since", "between", "seen", "riskiest", "similar"]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
+OtherName = Literal["why", "going"]
+"""What of another road user is asked about: why it did what it did, or where it goes."""
+DetailName = Literal["shorter", "longer", "why", "before", "after"]
+"""How the last explanation is wanted again; before and after are the decisions next to it."""
 Choosable = Literal["view", "preference", "road", "layout"]
 """What has options beside the parameters."""
 Term = Literal[
@@ -113,11 +130,11 @@ class QuestionTraits:
 
 
 QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
-    "why": QuestionTraits(("move", "tick")),
-    "why_not": QuestionTraits(("move", "tick"), ("move",), runs_episodes=True),
-    "what_if": QuestionTraits(("change",), ("change",), runs_episodes=True),
+    "why": QuestionTraits(("move", "instead", "tick", "ticks", "seconds"), runs_episodes=True),
+    "why_not": QuestionTraits(("move", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
+    "what_if": QuestionTraits(("change", "move", "tick", "ticks", "seconds"), runs_episodes=True),
     "next": QuestionTraits(),
-    "scene": QuestionTraits(("kind",)),
+    "scene": QuestionTraits(("kind", "count")),
     "status": QuestionTraits(),
     "metrics": QuestionTraits(("metric",)),
     "confidence": QuestionTraits(runs_episodes=True),
@@ -126,11 +143,45 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "setting": QuestionTraits(("parameter", "value"), ("parameter",)),
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
-    "history": QuestionTraits(("what", "tick", "until", "ticks"), ("what",), runs_episodes=True),
+    "history": QuestionTraits(("what", "tick", "until", "ticks", "count"), ("what",), runs_episodes=True),
     "styles": QuestionTraits(),
     "changes": QuestionTraits(("count", "tick")),
     "pending": QuestionTraits(),
+    "detail": QuestionTraits(("how",), ("how",), runs_episodes=True),
+    "other": QuestionTraits(
+        ("what", "which", "move", "tick", "ticks", "seconds"), ("what", "which"), runs_episodes=True
+    ),
+    "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
+    "outlook": QuestionTraits(("what", "move"), ("what",), runs_episodes=True),
+    "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
+    "planners": QuestionTraits(("what", "planners", "planner", "tick"), ("what",), runs_episodes=True),
+    "quiz": QuestionTraits(runs_episodes=True),
 }
+
+WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
+    "history": get_args(HistoryName),
+    "other": get_args(OtherName),
+    "outlook": get_args(OutlookName),
+    "blame": get_args(BlameName),
+    "planners": get_args(PlannersName),
+}
+"""The values of `what` that a kind of question may have."""
+
+WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
+    "safe": (frozenset(("move",)),),
+    "arrival": (frozenset(),),
+    "crash": (frozenset(),),
+    "arrive_how": (frozenset(),),
+    "stuck": (frozenset(),),
+    "avoid_how": (frozenset(),),
+    **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
+    "here": (frozenset(), frozenset(("planners",))),
+    "compare": (frozenset(), frozenset(("planners",))),
+    "character": (frozenset(), frozenset(("planner",))),
+    "own": (frozenset(), frozenset(("tick",))),
+}
+"""What else a question names beside each `what`, in each of the ways it can be said; those of the past have
+`HISTORY_KEYS`."""
 
 HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "closest_call": (frozenset(),),
@@ -138,5 +189,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "since": (frozenset(("tick",)), frozenset(("ticks",))),
     "between": (frozenset(("tick", "until")),),
     "seen": (frozenset(("tick",)), frozenset(("ticks",))),
+    "riskiest": (frozenset(), frozenset(("tick", "until"))),
+    "similar": (frozenset(), frozenset(("tick",))),
 }
 """The ticks that a question about the past names, in each of the ways it can be said."""

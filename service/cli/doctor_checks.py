@@ -81,8 +81,8 @@ def model(settings: Settings) -> Finding:
     """Is what a language model needs installed, and is it named in full; it is not asked."""
     if settings.llm_base_url is None and not settings.llm_model:
         return Finding("ok", "none is named: what is said is understood by the grammar alone")
-    if settings.llm_base_url is None or not settings.llm_model:
-        missing = "ROADTALK_LLM_BASE_URL" if settings.llm_base_url is None else "ROADTALK_LLM_MODEL"
+    missing = settings.missing_model_setting
+    if missing is not None:
         return Finding("fault", f"named in part: {missing} is not set, so none is asked", f"Set {missing}.")
     try:
         create_model(settings)

@@ -42,6 +42,10 @@ COMMANDS: Final = {
         "service.window.command",
         "Open the road in a window: drive, watch it drive, talk to it. No service is needed.",
     ),
+    "quiz": (
+        "service.cli.quiz",
+        "Predict what a planner does and why, before and after explanations; write the result to a file.",
+    ),
     "check-planner": ("service.cli.check_planner", "Try a planner's promises on many roads."),
 }
 """Each command's module, whose function of the same name it is, and the first paragraph of its help."""

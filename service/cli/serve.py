@@ -74,6 +74,8 @@ def serve(
     reason = exposure_problem(settings)
     if reason is not None:
         _fail(reason)
+    if settings.missing_model_setting is not None:
+        _fail(f"A language model is named in part: {settings.missing_model_setting} is not set.")
     listener = _listener(settings.host, settings.port)
     deadline = Deadline()
     stop_when_hung_up()

@@ -18,7 +18,7 @@ from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice, Withheld
 from service.grammar.lexicon import SECOND, Sense
 from service.grammar.noun_phrases import NOUN, QUANTITY
 from service.grammar.parse_types import Span
-from service.grammar.paths import SEPARATOR
+from service.grammar.paths import SEPARATOR, SPEAKER
 from service.grammar.tokens import Token
 
 AMOUNT = "marker.amount"
@@ -39,10 +39,16 @@ POINTER = "marker.pointer"
 PHRASE = "marker.phrase"
 """Role of phrases whose words say nothing more alone, wherever they stand: "next to"."""
 
+WHOLE = "marker.whole"
+"""Role of phrases none of whose words may be passed over: "why will you" asks about what is to come."""
+
 CLAUSE = "marker.clause"
 """Words that begin a clause of condition or time; they are no part of a name without quotation marks."""
 
-MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, POINTER, PHRASE, CLAUSE))
+IDIOM = "marker.idiom"
+"""Phrases of other subjects: none of their words means anything alone: "snow globe", "on the road again"."""
+
+MARKERS = frozenset((AMOUNT, MEASURE, DEGREE, THING, POINTER, PHRASE, WHOLE, CLAUSE, IDIOM))
 
 LONGEST_BEFORE = 4
 """Tokens of the longest phrase before a pointing word that is looked at."""
@@ -53,15 +59,18 @@ VERB = "v."
 SERVES = "prep."
 """What the concepts begin with whose frames use the word before an amount."""
 
+PLACING = "prep.place"
+"""Concept of those before a place; before so many things there is no place: "at 40 potholes"."""
+
 _MEASURED = frozenset(("length", "speed", "seconds", "fraction", "times", "real_times"))
-_PARTS = frozenset((NUMBER, "part_of", "factor"))
+_PARTS = frozenset((NUMBER, "part_of", "factor", "factor_of"))
 _THINGS = ("noun.thing.one", "noun.thing.many")
 
 
-def withhold(lattice: Lattice, free: Set[str]) -> None:
+def withhold(lattice: Lattice, free: Set[str], idle: Set[str]) -> None:
     """Take the markers out of a lattice that was just scanned, and what they cannot be where they stand.
 
-    `free` are the concepts that frames take without a use for them.
+    `free` are the concepts that frames take without a use for them, `idle` those that no frame has one for.
     """
     if lattice.concepts.isdisjoint(MARKERS):
         return
@@ -76,7 +85,7 @@ def withhold(lattice: Lattice, free: Set[str]) -> None:
         end = _operand(lattice, marker)
         if end is None:
             continue
-        loose = _loose(lattice, marker, free)
+        loose = _loose(lattice, marker, idle if marker.concept in (AMOUNT, WHOLE) else free)
         if loose:
             lattice.withheld.append(Withheld(marker.start, end, tuple(loose)))
     for each in lattice.withheld:
@@ -101,7 +110,7 @@ def restored(lattice: Lattice, withheld: Sequence[Withheld], end: int) -> Iterat
 def _operand(lattice: Lattice, marker: Edge) -> int | None:
     """Where that ends which a marker decides about, or None where it is in no role."""
     at = marker.end
-    if marker.concept == PHRASE:
+    if marker.concept in (PHRASE, WHOLE, IDIOM):
         return at
     if at >= lattice.size:
         return None
@@ -135,6 +144,14 @@ def _amount_end(lattice: Lattice, at: int, *, things: bool) -> int | None:
     return max(ends, default=None)
 
 
+def _counts_things(lattice: Lattice, at: int) -> bool:
+    """Whether a number of things begins at a token."""
+    return any(
+        edge.concept == NUMBER and edge.end < lattice.size and _names_thing(lattice, edge.end)
+        for edge in lattice.edges[at]
+    )
+
+
 def _thing_end(lattice: Lattice, at: int) -> int | None:
     """Where the noun for a thing ends that begins at a token, if nothing longer does."""
     longest = max((edge.end for edge in lattice.edges[at]), default=at)
@@ -158,17 +175,33 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
         for edge in starting
         if edge.end <= marker.end
     )
+    if marker.concept == IDIOM:
+        return list(inside)
     if marker.concept in (AMOUNT, MEASURE):
-        passed = free | {GLUE}
-        return [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
-    loose = free | {GLUE, SECOND}
+        passed = free | ({GLUE, SECOND} if marker.end == marker.start + 1 else {GLUE})
+        placing = {PLACING} if _counts_things(lattice, marker.end) else frozenset()
+        before = [e for e in _reaching_into(lattice, marker) if e.concept == GLUE]  # "time to 3 ticks"
+        return before + [
+            e
+            for e in inside
+            if (e.concept in passed and not e.concept.startswith(SERVES)) or e.concept in placing
+        ]
+    loose = free | {GLUE, SECOND, SPEAKER}
     if marker.concept == PHRASE:  # its first word decides: "in the rain", but "bring in the rain"
         here = [edge for edge in lattice.edges[marker.start] if edge.end <= marker.end]
         return [edge for edge in here if edge.concept in loose or edge.concept.startswith(SERVES)]
     found = [edge for edge in inside if edge.concept in loose]
+    if marker.concept == WHOLE:
+        return [edge for edge in found if (edge.start, edge.end) != (marker.start, marker.end)]
     if marker.concept == POINTER:
         found += _ending_with(lattice, marker)
     return found
+
+
+def _reaching_into(lattice: Lattice, marker: Edge) -> list[Edge]:
+    """The edges that begin before a marker and end in it: the "at all" of "at all but two"."""
+    before = lattice.edges[max(0, marker.start - LONGEST_BEFORE) : marker.start]
+    return [edge for starting in before for edge in starting if marker.start < edge.end <= marker.end]
 
 
 def _ending_with(lattice: Lattice, marker: Edge) -> list[Edge]:

@@ -6,7 +6,7 @@ They are kept apart from the lexicon, since "yes" or "the second one" mean nothi
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from service.grammar.lexicon import Lexicon
@@ -47,6 +47,51 @@ SO_MUCH = "so_much"
 CHOOSES = "chooses"
 """Concept of the beginnings with which one of what an answer listed is chosen: "use"."""
 
+OF_THINGS = "of_things"
+"""Concept of sentences about the kind of thing spoken of; what to read instead: "how many are left?"."""
+
+COUNTED = "counted"
+"""Concept of such sentences with a number; which of `counted_things` it is, and the number."""
+
+NOUN = "noun"
+"""Concept of words that stand for a noun; the nouns to read instead: "the ones on the left"."""
+
+OF_THEM = "of_them"
+"""Concept of words for all the things spoken of; what to read instead: "half of them"."""
+
+ENDING_NOUN = "ending_noun"
+"""Concept of endings after which a noun is left out: "all but the nearest"."""
+
+PREFACE = "preface"
+"""Concept of reasons before a request, and what it does not do then: "too many, remove half"."""
+
+TWO = "two"
+"""Concept of what is done to two things, each of which is to be named: "swap them"."""
+
+ASKS_AGAIN = "asks_again"
+"""Concept of what asks the last question again: "and now?"."""
+
+REWORDED = "reworded"
+"""Concept of how a replacement may begin; the beginning to read instead: "make them" cones."""
+
+TIMES = "times"
+"""Concept of what does the last request again so many times; the number: "twice more"."""
+
+MORE_TICKS = "more_ticks"
+"""Concept of what takes so many more steps of time; the number: "three more"."""
+
+STILL = "still"
+"""Concept of endings that a comparison may have: "a bit harder still"."""
+
+GOING_ON = "going_on"
+"""Concept of words by which a change goes on with the last one: "still"."""
+
+MUCH_MORE = "much_more"
+"""Concept of what asks for the last goal once more, and to which degree: "a bit more"."""
+
+VIEW_SAID = "view_said"
+"""Concept of words that stand for the view spoken of last: "hide it"."""
+
 TOO = "too"
 """Concept of what may end a sentence that leans on the one before: "as well"."""
 
@@ -67,8 +112,18 @@ class Answers:
     """what is said where a choice is answered that there is none of"""
     setting_asked: str = ""
     """a question for a setting that is only named: "and the courtesy?" """
+    setting_named: str = "{setting}"
+    """a setting as a sentence names it: "the courtesy" """
     incomplete: tuple[Mapping[str, Any], ...] = ()
     """questions about requests that lack something (`ask`), and how each may be completed (`with`)"""
+    counted_things: Mapping[str, str] = field(default_factory=dict)
+    """sentences with a number of things (`{count}`, `{one}`, `{many}`), by what they are for"""
+    one_after: tuple[str, ...] = ()
+    """ways to complete what points at a thing without a noun (`{said}`): "the third" """
+    denies: frozenset[str] = frozenset()
+    """words before what was not meant: "five, not three" """
+    continues: Mapping[str, str] = field(default_factory=dict)
+    """by kind of request, the sentence that says another without its verb (`{said}`)"""
     shall: str = ""
     """the question whether what an answer listed is to be done"""
     completes: tuple[str, ...] = ()
@@ -86,7 +141,12 @@ class Answers:
             data.get("replaces", ""),
             data.get("no_such_choice", ""),
             data.get("setting_asked", ""),
+            data.get("setting_named", "{setting}"),
             tuple(data.get("incomplete", ())),
+            data.get("counted_things", {}),
+            tuple(data.get("one_after", ())),
+            frozenset(data.get("denies", ())),
+            data.get("continues", {}),
             data.get("shall", ""),
             tuple(data.get("completes", ())),
             frozenset(data.get("places", ())),

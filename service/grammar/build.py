@@ -15,7 +15,7 @@ from service.grammar.frames import Filled
 from service.grammar.lattice import Edge
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
-from sim.types import ego_id, is_ego, kind_of
+from sim.types import Kind, ego_id, is_ego, kind_of
 
 _ABSENT = object()
 _MEASURES = ("number", "length", "speed", "seconds", "fraction", "times", "cells")
@@ -71,6 +71,8 @@ def merge_places(parts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
     """The actions of a filled frame, in the order their things were said. Raises `CannotBuild`."""
     frame = filled.frame
+    if any(not _fits(filled, path, values) for path, values in frame.only.items()):
+        raise CannotBuild("a value the frame is not for")
     maker = _Maker(filled, parameters)
     if not frame.per:
         return [made for template in frame.actions for made in maker.actions(template)]
@@ -84,8 +86,22 @@ def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
     return [maker.action(template, turn) for turn in turns for template in frame.actions]
 
 
+def _fits(filled: Filled, path: str, values: Sequence[Any]) -> bool:
+    """Whether what was said of a concept is among these values; what was not said is no matter."""
+    concept, _, attribute = path.partition(".")
+    said = (edge.sense.value for edge in filled.of(concept))
+    return all((getattr(value, attribute) if attribute else value) in values for value in said)
+
+
 def _ids(edge: Edge) -> tuple[str, ...]:
     return edge.sense.value.ids if isinstance(edge.sense.value, Amount) else ()
+
+
+RAISING, LOWERING = "v.up", "v.down"
+"""Concepts of verbs that say which way an amount goes."""
+
+REMOVING = "v.remove"
+"""Concept of verbs of taking away; one with a kind as its value takes away nothing else: "patch" potholes."""
 
 
 class _Maker:
@@ -118,10 +134,24 @@ class _Maker:
         value = self._value(template, turn)
         if not isinstance(value, dict):
             raise CannotBuild("an action must be a mapping")
+        if self._is_turned_round(value):
+            raise CannotBuild("the verb and its amount or its thing do not go together")
         about = value.get("parameter")
         if about in self._parameters.takes and any(e.sense.value != about for e in self._filled.of("param")):
             raise CannotBuild("another setting was named")
         return value
+
+    def _is_turned_round(self, action: Mapping[str, Any]) -> bool:
+        """Whether a verb says another thing than the action does: "lower it to twice", "patch the cars"."""
+        verbs = {edge.concept: edge.sense.value for edge in self._filled.slots}
+        only = verbs.get(REMOVING)
+        if isinstance(only, str) and action.get("kind", only) != only:
+            return True
+        if action["do"] != "adjust":
+            return False
+        grows = action.get("factor", 1) > 1 or action.get("by", 0) > 0
+        shrinks = action.get("factor", 1) < 1 or action.get("by", 0) < 0
+        return (grows and LOWERING in verbs) or (shrinks and RAISING in verbs)
 
     def _value(self, template: Any, turn: Edge | None) -> Any:
         if isinstance(template, str) and template.startswith("$"):
@@ -166,6 +196,8 @@ class _Maker:
                 return next((count for count in steps if count is not None), 1)
             case "first" | "second":
                 return self._one_of_two(name)
+            case "which":
+                return self._which(turn)
             case "becomes":
                 return self._becomes()
             case "ego_named":
@@ -201,6 +233,23 @@ class _Maker:
         thing = things[0 if which == "first" else 1]
         where = {} if thing.where is None else {"where": thing.where}
         return {"kind": thing.kind, **where}
+
+    def _which(self, turn: Edge | None) -> dict[str, Any]:
+        """The road user that is asked about; a car without a place or an id would be the vehicle itself."""
+        edges = [turn] if turn is not None else self._filled.of("thing")
+        if len(edges) != 1 or not isinstance(edges[0].sense.value, Amount):
+            raise CannotBuild("not one road user")
+        amount, form = edges[0].sense.value, edges[0].concept.partition(".")[2]
+        if amount.ids:
+            return {"id": amount.ids[0]}
+        kind, where = amount.of, self.where() or {}
+        if Kind(kind).fixed or amount.count not in (None, 1):
+            raise CannotBuild("what does not move, or several")
+        if form in ("that", "nearest") and not where:
+            where = {"nearest": True}
+        if not where and (form != "the_one" or Kind(kind) is not Kind.PEDESTRIAN):
+            raise CannotBuild("no one in particular")
+        return {"kind": kind, **where}
 
     def _ego(self) -> str:
         """The id of the ego that is named, by its id or its number in order."""

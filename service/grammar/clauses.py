@@ -8,17 +8,18 @@ potholes"). Negated fragments are understood and then left out.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from service.grammar.composition import Composition, Matcher, asks, within
-from service.grammar.fragments import BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, Fragment
+from service.grammar.fragments import AND, BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, THEN, Fragment
 from service.grammar.frames import Filled
-from service.grammar.lattice import NUMBER, Edge, Lattice
+from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import QUANTITY, Amount
 from service.grammar.paths import NEGATION
+from service.grammar.places_apart import are_apart
 from service.grammar.stretches import Context, Stretches
 from service.grammar.work_budget import WorkBudget
 
@@ -34,6 +35,8 @@ _FURTHER = ("more", "another")
 _PLACED = ("place", "side", "length")
 
 CONTRAST = "contrast"
+_COUNTING = ("add", "set_count")
+SCENARIO = "scenario"
 EVERYTHING = "everything"
 
 
@@ -52,6 +55,8 @@ class Clause:
     """whether it leans on what was said before this sentence"""
     instead: tuple[Clause, ...] = ()
     """what its parts mean alone, where that is another thing: which of them was meant is asked"""
+    forbids: tuple[Mapping[str, Any], ...] = ()
+    """what a negated part would do otherwise; its amounts may be any"""
 
     @property
     def supposes(self) -> str | None:
@@ -91,7 +96,15 @@ class Divider:
         at = 0
         while at < len(parts):
             clause, used = self._next(parts, at, context)
-            if clause is None:
+            if clause is not None and at + used < len(parts) and self._either_way(parts, at, used):
+                clause, at = None, at + used
+            before = divided.clauses[-1] if divided.clauses else None
+            if clause is None or (
+                before is not None
+                and (
+                    self._says_twice(before, clause, parts[at]) or _may_be_negated(before, clause, parts[at])
+                )
+            ):
                 divided.failed = parts[at]
                 return divided
             divided.clauses.append(replace(clause, after=parts[at].after))
@@ -105,26 +118,68 @@ class Divider:
         while True:
             clause, used = self._join(parts[:end], at, context)
             if clause is None:
-                return self._single(parts[at], context), 1
+                return self._first_of_two(parts[:end], at, context)
             if not clause.actions:  # it says only what not to do, or asks for itself
                 return clause, used
             said = parts[at : at + used]
+            asked = self._composition.first_question(clause.actions, said)
+            if asked is not None:
+                end = at + max(asked, 1)
+                continue
             heads = self._composition.heads(clause.filled, said)
             if not heads:
                 swallowed = self._composition.swallows((clause.filled, clause.actions), said)
-                return (self._or_apart(clause, said, context) if swallowed else clause), used
+                either = self._or_apart(clause, said, context) if swallowed else clause
+                if swallowed and not either.instead and self._composition.loses_first(clause.actions, said):
+                    end = at + 1
+                    continue
+                return either, used
             apart = self._requests(said, heads, context)
             if apart is None or _same(apart, clause):
+                if self._composition.loses_first(clause.actions, said):
+                    end = at + 1
+                    continue
                 return clause, used
             own = self._composition.verb_of_its_own(said[0]) is not None
             optional = _optional(clause, apart)
-            leans = bool(context.verb) and self._composition.alone(said[0]) is None
-            if not (own or optional or context.verb):
+            leans = (
+                bool(context.verb) and parts[at].after != STOP and self._composition.alone(said[0]) is None
+            )
+            if not (own or optional or context.verb) and said[heads[-1]].after in (PAUSE, AND):
                 return clause, used
-            if own or said[heads[0]].after == STOP or (optional and leans):
-                end = at + heads[0]
+            if own or said[heads[-1]].after not in (PAUSE, AND) or (optional and leans):
+                end = at + heads[-1]
                 continue
             return replace(clause, instead=tuple(apart)), used
+
+    def _first_of_two(
+        self, parts: Sequence[Fragment], at: int, context: Context
+    ) -> tuple[Clause | None, int]:
+        """A part as a clause; one that only begins the sentence that it stands in goes with the next part."""
+        part = parts[at]
+        if not (at and context.verb):
+            return self._single(part, context), 1
+        if self._describes_hazard(parts, at):
+            return None, 1
+        if not self._begins_request(parts, at):
+            return self._single(part, context), 1
+        both = self._stretches.make(part.start, parts[at + 1].end, joined=True)
+        found = self._matcher.match(both, verbless=False)
+        if found is None or part.after not in (STOP, THEN):
+            return None, 1
+        return Clause(part.start, parts[at + 1].end, *found), 2
+
+    def _describes_hazard(self, parts: Sequence[Fragment], at: int) -> bool:
+        """Whether a part that may lean is a question with the next: "pothole 2 m ahead, speed 40 km/h"."""
+        if (
+            at + 1 == len(parts)
+            or parts[at + 1].after != PAUSE
+            or self._composition.verb_of_its_own(parts[at])
+        ):
+            return False
+        both = self._stretches.make(parts[at].start, parts[at + 1].end, joined=True)
+        found = self._matcher.match(both)
+        return found is not None and asks(found[1])
 
     def _requests(
         self, parts: Sequence[Fragment], heads: Sequence[int], context: Context
@@ -155,7 +210,8 @@ class Divider:
         if len(apart) < len(parts):
             found = self._requests(parts, range(1, len(parts)), context)
             apart = [one for each in found or () for one in each.instead or (each,)]
-        if not apart or _same(apart, clause) or not _optional(clause, apart):
+        stops = any(part.after == STOP for part in parts[1:])
+        if not apart or _same(apart, clause) or not (stops or _optional(clause, apart)):
             return clause
         return replace(clause, instead=tuple(apart))
 
@@ -181,6 +237,32 @@ class Divider:
                 if leaning is not None:
                     return Clause(start, stop, *leaning), end - at
         return None, 0
+
+    def _either_way(self, parts: Sequence[Fragment], first: int, used: int) -> bool:
+        """Whether a part may belong to the request before it as well as to the one after it."""
+        at = first + used
+        if used > 1 and parts[at - 1].after == PAUSE and self._begins_request(parts, at - 1):
+            return True
+        if used > 1 and self._describes_hazard(parts, at - 1):
+            return True
+        if (
+            parts[at].after == PAUSE
+            or parts[at].after not in _TOGETHER
+            or not self._begins_request(parts, at)
+        ):
+            return False
+        before = self._stretches.make(parts[first].start, parts[at].end, joined=True)
+        return self._matcher.match(before, verbless=False) is not None
+
+    def _says_twice(self, before: Clause, clause: Clause, part: Fragment) -> bool:
+        """Whether a part without a verb would be in the scenario before it, which has that already."""
+        if part.after not in (PAUSE, STOP, AND) or self._composition.verb_of_its_own(part) is not None:
+            return False
+        said = {key for action in before.actions if action["do"] == SCENARIO for key in action}
+        return any(
+            action["do"] in _COUNTING and "where" not in action and f"{action['kind']}s" in said
+            for action in clause.actions
+        )
 
     def _begins_request(self, parts: Sequence[Fragment], at: int) -> bool:
         """Whether a part only begins the sentence that it stands in: "10 metres ahead, add a cone"."""
@@ -213,6 +295,8 @@ class Divider:
         plain = self._stretches.make(start, end)
         found = self._matcher.match(plain, verbless=False)
         if found is not None:
+            if found[0].frame.leaves_out and self._takes_out(part, context):
+                return None
             clause = Clause(start, end, *found, negated=found[0].frame.leaves_out)
             belongs = self._composition.also_leans(part, found, context)
             return clause if belongs is None else replace(clause, instead=(Clause(start, end, *belongs),))
@@ -296,7 +380,7 @@ class Divider:
     def _negate(self, part: Fragment, context: Context) -> Clause | None:
         """A fragment that says what not to do: understood, then left out."""
         start, end = part.start, part.end
-        if self._excepts(part, context):
+        if self._excepts(part, context) or self._says_nothing_but_no(part):
             return None
         for given in (Context(negated=True), Context(context.verb, context.noun, negated=True)):
             found = self._matcher.match(
@@ -305,17 +389,28 @@ class Divider:
             if found is not None and given.verb and self._takes_place_out(part, context):
                 return None
             if found is not None:
-                return Clause(start, end, found[0], [], negated=True)
+                forbids = () if given.verb else tuple(found[1])
+                return Clause(start, end, found[0], [], negated=True, forbids=forbids)
         return None
+
+    def _says_nothing_but_no(self, part: Fragment) -> bool:
+        """Whether a part has a negation and nothing that it could be about: "turn left, not, …"."""
+        covered = part.start
+        for edge in self._lattice.between(part.start, part.end):
+            if edge.sense.form or edge.concept not in (NEGATION, GLUE):
+                continue
+            if edge.start <= covered < edge.end:
+                covered = edge.end
+        return covered >= part.end
 
     def _takes_place_out(self, part: Fragment, context: Context) -> bool:
         """Whether it only says where something shall not be, which the place that was said leaves open."""
         said = list(self._lattice.between(part.start, part.end))
-        keys = _places(said)
+        where = _places(said)
         return (
-            bool(keys)
+            bool(where)
             and not any(edge.concept.startswith("thing") for edge in said)
-            and not keys <= context.places
+            and not (where.keys() <= context.places.keys() and are_apart(context.places, where))
         )
 
     def _excepts(self, part: Fragment, context: Context) -> bool:
@@ -323,6 +418,11 @@ class Divider:
         said = list(self._lattice.between(part.start, part.end))
         if any(edge.concept.startswith("v.") for edge in said):
             return False
+        return self._takes_out(part, context)
+
+    def _takes_out(self, part: Fragment, context: Context) -> bool:
+        """Whether the things it names are among those that were said to be all: "…, but keep the cones"."""
+        said = list(self._lattice.between(part.start, part.end))
         kinds = {edge.sense.value.of for edge in said if isinstance(edge.sense.value, Amount)}
         whole = context.noun is not None and context.noun.concept.endswith(_WHOLE)
         return context.everything or (
@@ -340,6 +440,7 @@ def _context(clause: Clause, before: Context) -> Context:
     amounts = [edge for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)]
     noun = amounts[-1] if amounts else before.noun
     everything = any(edge.sense.concept == EVERYTHING for edge in clause.filled.slots)
+    everything = everything or any(action.get("kind") == EVERYTHING for action in clause.actions)
     last = max(clause.filled.slots, key=lambda edge: edge.end, default=None)
     placed = last is not None and last.concept in _PLACED
     return Context(
@@ -354,14 +455,21 @@ def _context(clause: Clause, before: Context) -> Context:
     )
 
 
-def _places(edges: Iterable[Edge]) -> frozenset[str]:
-    """By what the places among some edges are given: "lane", "row", the concept of any other."""
-    placed = [edge for edge in edges if edge.concept in _PLACED]
-    return frozenset(
-        key
-        for edge in placed
-        for key in (edge.sense.value if isinstance(edge.sense.value, dict) else (edge.concept,))
-    )
+def _places(edges: Iterable[Edge]) -> dict[str, Any]:
+    """By what the places among some edges are given ("lane", the concept of any other), and what they are."""
+    places: dict[str, Any] = {}
+    for edge in edges:
+        if edge.concept in _PLACED:
+            value = edge.sense.value
+            places |= value if isinstance(value, dict) else {edge.concept: value}
+    return places
+
+
+def _may_be_negated(before: Clause, clause: Clause, part: Fragment) -> bool:
+    """Whether a negation may go on over an "and": "don't add cars and make it rain" may want no rain."""
+    if not before.negated or before.filled.frame.leaves_out or part.after != AND:
+        return False
+    return bool(clause.actions) and not asks(clause.actions)
 
 
 def _same(apart: Sequence[Clause], joint: Clause) -> bool:

@@ -68,21 +68,28 @@ class Composition:
 
     def heads(self, joint: Filled, parts: Sequence[Fragment]) -> list[int]:
         """Which parts of a listing after the first are requests of their own."""
-        kept = [_belongs(joint, parts, at) for at in range(len(parts))]
+        kept = [self._belongs(joint, parts, at) for at in range(len(parts))]
         return [
             at
             for at, part in enumerate(parts)
             if at and not kept[at] and self.verb_of_its_own(part) is not None and not all(kept[:at])
         ]
 
+    def first_question(self, joint: Sequence[Mapping[str, Any]], parts: Sequence[Fragment]) -> int | None:
+        """The first part that is a question by its own words, where the listing asks nothing."""
+        if asks(joint):
+            return None
+        own = ((at, self.verb_of_its_own(part)) for at, part in enumerate(parts))
+        return next((at for at, found in own if found is not None and asks(found[1])), None)
+
     def swallows(self, joint: Reading, parts: Sequence[Fragment]) -> bool:
         """Whether a listing gives one of its parts another meaning than it has alone."""
         verbs = {action["do"] for action in joint[1]}
         for at, part in enumerate(parts):
-            own = None if _belongs(joint[0], parts, at) else self.alone(part)
-            if own is None:
-                continue
+            own = self.alone(part)
             verb = self.verb_of_its_own(part) is not None
+            if own is None or (self._belongs(joint[0], parts, at) and (asks(own[1]) or not verb)):
+                continue
             if asks(own[1]) != asks(joint[1]) and (verb or not asks(own[1])):
                 return True
             apart = at > 0 and part.after in (BUT, STOP)
@@ -92,6 +99,14 @@ class Composition:
             if (apart or says or _says_what_to_do(own[0])) and not done_by(own[1], joint[1]):
                 return True
         return False
+
+    def loses_first(self, joint: Sequence[Mapping[str, Any]], parts: Sequence[Fragment]) -> bool:
+        """Whether a listing does nothing of what its first part says, which is set off from the others."""
+        own = self.verb_of_its_own(parts[0])
+        if own is None or parts[1].after not in ("and", STOP):
+            return False
+        verbs = {action["do"] for action in joint}
+        return verbs.isdisjoint(action["do"] for action in own[1]) and not done_by(own[1], joint)
 
     def differs(self, part: Fragment, leaning: Reading) -> Reading | None:
         """What a part means alone where that is another thing than what it means leaning on the one before.
@@ -104,6 +119,7 @@ class Composition:
             return None
         apart = part.after in (STOP, THEN) or _says_what_to_do(own[0])
         apart = apart or (asks(leaning[1]) and not asks(own[1]))
+        apart = apart or (asks(own[1]) and not asks(leaning[1]) and part.after == PAUSE)
         return own if apart else None
 
     def also_leans(self, part: Fragment, own: Reading, context: Context) -> Reading | None:
@@ -114,6 +130,15 @@ class Composition:
             return None
         leaning = self._matcher.match(self._stretches.make(part.start, part.end, context), verbless=False)
         return leaning if leaning is not None and asks(leaning[1]) else None
+
+    def _belongs(self, joint: Filled, parts: Sequence[Fragment], at: int) -> bool:
+        """Whether a part that is set off by a comma has only what the frame keeps: "at tick 12, why …"."""
+        part = parts[at]
+        if len(parts) == 1 or parts[max(at, 1)].after != PAUSE:
+            return False
+        inside = {edge.concept for edge in joint.slots if part.start <= edge.start and edge.end <= part.end}
+        fillers = joint.frame.many.difference(*joint.frame.needs)
+        return not inside.isdisjoint(joint.frame.keeps) and inside <= joint.frame.keeps | fillers
 
     def _alone(self, part: Fragment, *, verbless: bool) -> Reading | None:
         key = part.start, part.end, verbless
@@ -126,16 +151,6 @@ class Composition:
 def asks(actions: Sequence[Mapping[str, Any]]) -> bool:
     """Whether one of the actions is a question."""
     return any(action["do"] in _QUESTIONS for action in actions)
-
-
-def _belongs(joint: Filled, parts: Sequence[Fragment], at: int) -> bool:
-    """Whether a part that is set off by a comma has only what the frame keeps: "at tick 12, why …"."""
-    part = parts[at]
-    if parts[max(at, 1)].after != PAUSE:
-        return False
-    inside = {edge.concept for edge in joint.slots if part.start <= edge.start and edge.end <= part.end}
-    fillers = joint.frame.many.difference(*joint.frame.needs)
-    return not inside.isdisjoint(joint.frame.keeps) and inside <= joint.frame.keeps | fillers
 
 
 def _says_what_to_do(filled: Filled) -> bool:

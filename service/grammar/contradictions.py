@@ -30,6 +30,7 @@ _COUNTED = ("counted", ".exact", ".more", ".post")
 _OF_THINGS = "thing."
 """What the concepts of amounts of things begin with; "lane 2" is an amount of lanes."""
 
+_NONE = "thing.none"
 _EVERYTHING = "everything"
 
 _LOSING = verbs_where(lambda traits: traits.loses)
@@ -134,15 +135,21 @@ def _switch(action: Mapping[str, Any]) -> tuple[object, object] | None:
 def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | None:
     """A part that says what not to do, where another would do it all the same."""
     for at, clause in enumerate(clauses):
-        if not clause.negated or _says_how_many(clause, lattice):
+        if not clause.negated:
+            continue
+        for other in clauses:
+            if _does_it_all_the_same(other, clause):
+                return Contradiction((other, clause))
+        if _says_how_many(clause, lattice):
             continue
         frame, slots = clause.filled.frame, clause.filled.slots
         verbs = {str(template["do"]) for template in frame.actions if isinstance(template, dict)}
         verb = "add" if frame.leaves_out else min(verbs, default="")
         kinds = {edge.sense.value.of for edge in slots if isinstance(edge.sense.value, Amount)}
+        untouched = frame.only_negated or (frame.leaves_out and all(e.concept != _NONE for e in slots))
         placed = any(edge.concept in _PLACES for edge in slots)
         for place, other in enumerate(clauses):
-            if frame.only_negated and kinds:
+            if untouched and kinds:
                 if any(_touches(action, kinds) for action in other.actions):
                     return Contradiction((other, clause))
                 continue
@@ -155,6 +162,11 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
             ):
                 return Contradiction((other, clause))
     return None
+
+
+def _does_it_all_the_same(clause: Clause, forbidding: Clause) -> bool:
+    """Whether a request does the very same that another part forbids."""
+    return any(action in forbidding.forbids and "count" not in action for action in clause.actions)
 
 
 def _touches(action: Mapping[str, Any], kinds: Set[object]) -> bool:
@@ -173,9 +185,9 @@ def _none_of(clauses: Sequence[Clause]) -> Contradiction | None:
         if any(edge.concept in adding and edge.concept.startswith("v.") for edge in before.filled.slots):
             continue
         said = [action for each in clauses for action in each.actions]
-        kinds = dict.fromkeys(
-            edge.sense.value.of for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)
-        )
+        kinds = dict.fromkeys(edge.sense.value.of for edge in clause.filled.slots if edge.concept == _NONE)
+        if not kinds:  # "and keep the cones"
+            continue
         none = [{"do": "set_count", "kind": kind, "count": 0} for kind in kinds]
         return Contradiction((before, clause), ([*said, *none], said))
     return None

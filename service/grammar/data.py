@@ -9,6 +9,7 @@ from typing import Any
 
 from service.grammar.answer_words import Answers
 from service.grammar.build import Parameters
+from service.grammar.frame_use import idle
 from service.grammar.frames import Frame, FrameError, read_frames
 from service.grammar.lexicon import Lexicon
 from service.grammar.numbers import NumberWords
@@ -69,6 +70,8 @@ class LanguageData:
     """for each concept that may only stand with a value of its own kind ("weather"), that kind"""
     free: frozenset[str]
     """concepts that frames may take and have no use for, because they say nothing more"""
+    idle: frozenset[str]
+    """these, and all others that no frame has a use for"""
 
     def knows(self, word: str) -> bool:
         """Whether a word means anything, alone or in a phrase."""
@@ -148,13 +151,15 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
     """A language of its parts."""
     words = documents.words
     numbers = NumberWords.from_data(documents.numbers)
+    frames = read_frames(documents.frames)
+    free = frozenset(str(documents.frames.get("free", "")).split())
     return LanguageData(
         lexicon=lexicon,
         numbers=numbers,
         contractions=Contractions.from_data(words["contractions"]),
         typos=TypoRules.from_data(documents.typos),
         parameters=Parameters({name: takes.split() for name, takes in words["parameters"].items()}),
-        frames=read_frames(documents.frames),
+        frames=frames,
         messages=words["messages"],
         lanes=tuple(words.get("lanes", ())),
         sentences=documents.sentences,
@@ -162,5 +167,6 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         number_words=numbers.words(),
         answers=Answers.from_data(documents.answers),
         nouns=documents.frames["agree"],
-        free=frozenset(str(documents.frames.get("free", "")).split()),
+        free=free,
+        idle=idle(frames, free),
     )

@@ -21,17 +21,21 @@ from service.grammar.compiled import check_fit, load_language
 from service.grammar.correction import answer_correction, opening_words
 from service.grammar.data import LanguageData, read_language
 from service.grammar.free_text import TEACH, find_names
+from service.grammar.lanes_from_right import resolve_lanes_from_right
 from service.grammar.lattice import Lattice, Name, Scanner
+from service.grammar.likely_words import read_likely
 from service.grammar.linter import defects
 from service.grammar.matching import Frames
 from service.grammar.name_ends import shorter_names
 from service.grammar.noun_phrases import NOUN
+from service.grammar.old_values import add_old_values
 from service.grammar.parse_types import Ambiguous, Choice, Correction, Parse, Refused, Understood
 from service.grammar.parser import Reading, content_of
 from service.grammar.paths import SEPARATOR
 from service.grammar.references import add_known
 from service.grammar.repairs import ALWAYS, DROPPED, Repair
 from service.grammar.sentences import Sentences
+from service.grammar.small_talk import small_talk
 from service.grammar.span_patterns import REPAIR
 from service.grammar.suggestions import Meanings, Saying, Suggestions, meanings_of
 from service.grammar.tokens import Token, normalise, restore_marks, tokenise, with_text
@@ -110,9 +114,13 @@ class Language:
             return Refused(text, "not_understood", messages["too_long"].format(words=MAX_TOKENS))
         work.spend(READ_STEPS + TOKEN_STEPS * len(tokens))
         kept = find_names(tokens, self._lexicon, restore_marks(text, plain), topic)
+        if kept and small_talk(self._scanner.scan(tokens, {})):
+            kept = {}
         tokens, corrections = self._fix_typos(plain, tokens, kept, topic)
         lattice = self._scanner.scan(tokens, kept)
-        withhold(lattice, self.data.free)
+        resolve_lanes_from_right(lattice, topic)
+        add_old_values(lattice)
+        withhold(lattice, self.data.free, self.data.idle)
         lattice.keep_whole(self.data.nouns)
         add_known(lattice, tokens, topic)
         uncovered = bool(lattice.uncovered())
@@ -127,6 +135,10 @@ class Language:
                 return self._answer_repair(text, repair.phrase, [], lattice, asking=asking)
         reading = Reading(self, text, plain, tokens, lattice, corrections, topic, work)
         parsed = reading.parse(asking=asking)
+        if uncovered and asking and not kept:
+            unknown = [token for token in tokens if token.text.isalpha() and not self.data.knows(token.text)]
+            likely = lambda each: self.read(each, topic, work, asking=False)  # noqa: E731
+            parsed = read_likely(text, plain, unknown, self.typos, likely) or parsed
         if kept and isinstance(parsed, Understood):
             parsed = self._ask_name(
                 parsed, restore_marks(text, plain), tokens, kept, topic, work, asking=asking

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from service.grammar.lattice import GLUE, Edge, Lattice
+from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import COLON
 from service.grammar.paths import SEPARATOR
 
@@ -15,6 +16,12 @@ PAUSE = "pause"
 STOP = "stop"
 THEN = "then"
 OR = "or"
+AND = "and"
+BEGINS_NEGATION = "negation.begins"
+"""Concept of words that begin a negated part without a separator before them: "nor". Those that are not of the
+value `always` do so before a verb or a noun without a quantity of its own: "without adding", "without any cones"."""
+_ALWAYS = "always"
+_VERB = "v."
 EXCEPT = "except"
 """After this comes where something shall not be: "anywhere but the left lane"."""
 BUT = "but"
@@ -31,6 +38,9 @@ REPEATED = "repeated"
 """What was done before, said again: "again"."""
 DROP = "drop"
 """What drops a question: its words may say nothing one by one."""
+_ASKED_ABOUT = "q.thing"
+"""Words that a question about a decision passes over: "back then"."""
+_LOOSE = (GLUE, _ASKED_ABOUT)
 _WHOLE_REQUESTS = (REPEATED, DROP)
 """Phrases that are requests though their words may be glue."""
 
@@ -49,7 +59,8 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
     found: list[Fragment] = []
     start, end = _past_interjection(lattice, start, end), _before_tag(lattice, start, end)
     after, begin, at, inside = "pause", start, start, start
-    while at < end and SEPARATOR in lattice.concepts:
+    cut_at = {SEPARATOR, BEGINS_NEGATION, COLON} & lattice.concepts
+    while at < end and cut_at:
         separator: Edge | None = None
         reach = inside
         for edge in lattice.edges[at]:
@@ -57,24 +68,59 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             if stop > end or concept == INTERJECTION:
                 continue
             if concept != SEPARATOR:
-                if concept == GLUE and at > begin and _passes_on(lattice, at, stop, end):
+                if concept in _LOOSE and at > begin and _passes_on(lattice, at, stop, end):
                     continue
                 reach = max(reach, stop)
             elif separator is None or stop > separator.end:
                 separator = edge
+        if separator is None and (mark := _before_last_verb(lattice, at, end)) is not None:
+            separator = mark
         if separator is not None and inside <= at:
             if _says_something(lattice, begin, at):
                 found.append(Fragment(after, begin, at))
                 after = str(separator.sense.value)
-            elif str(separator.sense.value) not in _MARKS:
+            elif str(separator.sense.value) not in _MARKS and after != OR:
                 after = str(separator.sense.value)
-            at = begin = inside = separator.end
+            begin = separator.end
+            if separator.sense.value == STOP:
+                begin = _past_interjection(lattice, begin, end)
+            at = inside = begin
             continue
+        if (
+            at > begin
+            and inside <= at
+            and _begins_negation(lattice, at)
+            and _says_something(lattice, begin, at)
+        ):
+            found.append(Fragment(after, begin, at))
+            after, begin = AND, at
         inside = reach
         at += 1
     if _says_something(lattice, begin, end) or (after == OR and begin < end and found):
         found.append(Fragment(after, begin, end))  # "five or so": how many was meant is not known
     return found
+
+
+def _before_last_verb(lattice: Lattice, at: int, end: int) -> Edge | None:
+    """A colon before a verb that ends the sentence, as a comma: "rainy city, 3 buses: simulate that"."""
+    for mark in lattice.edges[at]:
+        if mark.concept == COLON and mark.end < end and at:
+            for verb in lattice.edges[mark.end]:
+                if verb.concept.startswith(_VERB) and not _says_something(lattice, verb.end, end):
+                    return mark._replace(sense=Sense(SEPARATOR, PAUSE))
+    return None
+
+
+def _begins_negation(lattice: Lattice, at: int) -> bool:
+    """Whether a negated part begins at a token: "turn neither left | nor right"."""
+    for word in lattice.edges[at]:
+        if word.concept != BEGINS_NEGATION:
+            continue
+        after = lattice.edges[word.end] if word.end < lattice.size else []
+        if word.sense.value == _ALWAYS or any(edge.sense.form == "ing" for edge in after):
+            return True
+        return any(edge.concept == "thing.none" for edge in lattice.edges[at])
+    return False
 
 
 def _passes_on(lattice: Lattice, start: int, stop: int, end: int) -> bool:

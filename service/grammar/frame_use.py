@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterator, Sequence, Set
 
 from service.grammar.frames import Frame
+from service.grammar.noun_phrases import NOUN, QUANTITY
 
 _SLOT = re.compile(r"[${]([a-z_]+)")
 _AMOUNT = frozenset(("number", "length", "speed", "seconds", "fraction", "times", "cells"))
@@ -39,6 +40,7 @@ _MADE_OF = {
     "noun": frozenset(("thing",)),
     "first": frozenset(("meant",)),
     "second": frozenset(("meant",)),
+    "which": _PLACE | {"thing"},
     "steps_or_one": frozenset(("steps",)),
     "less": frozenset(("columns", "rows")),
 }
@@ -52,6 +54,20 @@ def dropped(frames: Sequence[Frame], free: Set[str]) -> Iterator[str]:
         for concept in sorted(frame.takes - free - frame.drops - frozenset().union(*frame.needs)):
             if concept not in used and concept.partition(".")[0] not in used:
                 yield f"frame {frame.name} takes {concept} and drops it"
+
+
+def idle(frames: Sequence[Frame], free: Set[str]) -> frozenset[str]:
+    """The concepts that no frame has a use for, wherever they are taken: words beside which say nothing more.
+
+    They are fillers of some requests ("compare A* *with* Dijkstra"), as glue is one of all.
+    """
+    used: set[str] = set()
+    taken: set[str] = set()
+    for frame in frames:
+        taken |= frame.accepted
+        used |= frame.accepted - frame.drops | frozenset().union(*frame.needs)
+    fillers = (each for each in taken - used if not each.startswith(NOUN) and each != QUANTITY)
+    return frozenset(fillers) | free
 
 
 def _used(frame: Frame) -> Set[str]:

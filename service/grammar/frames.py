@@ -53,6 +53,8 @@ class Frame:
     """Whether the speaker may be the one to do it: "let me …", "can I …"."""
     agree: Mapping[str, str] = field(default_factory=dict)
     """Concept → the concept that must be there with it."""
+    only: Mapping[str, tuple[Any, ...]] = field(default_factory=dict)
+    """Concept, or concept.attribute → the values with which alone it fits."""
     drops: frozenset[str] = frozenset()
     """Concepts that it takes although its actions do not say them: with them the request is the same."""
     accepted: frozenset[str] = frozenset()
@@ -89,7 +91,7 @@ def read_frames(data: Mapping[str, Any]) -> list[Frame]:
 
 def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: Mapping[str, str]) -> Frame:
     known = {"say", "needs", "takes", "do", "per", "forms", "inherits", "joins", "verbless", "rank", "ask"}
-    known |= {"speaker", "leaves_out", "only_negated", "supposes", "last", "drops", "keeps"}
+    known |= {"speaker", "leaves_out", "only_negated", "supposes", "last", "drops", "keeps", "only"}
     if odd := set(data) - known:
         raise FrameError(f"frame {name}: no such fields: {', '.join(sorted(odd))}")
     many: set[str] = set()
@@ -113,6 +115,10 @@ def _frame(name: str, data: Mapping[str, Any], sets: Mapping[str, str], agree: M
         supposes=data.get("supposes"),
         speaker=bool(data.get("speaker", True)),
         agree=agree,
+        only={
+            path: tuple(values) if isinstance(values, list) else (values,)
+            for path, values in data.get("only", {}).items()
+        },
         drops=frozenset(_concepts(str(data.get("drops", "")), sets, set())),
         leaves_out=bool(data.get("leaves_out", False)),
         only_negated=bool(data.get("only_negated", False)),

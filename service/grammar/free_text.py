@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from service.grammar.accounting import CLAUSE
+from service.grammar.accounting import CLAUSE, IDIOM
 from service.grammar.lattice import GLUE, Name
 from service.grammar.lexicon import Lexicon, Sense
 from service.grammar.tokens import Token
@@ -23,6 +23,8 @@ FORGETS = "forgets"
 TEACH = "teach"
 MEANS = "means"
 SAVES = "save"
+CHAT = "chat"
+"""Concept of small talk."""
 ORDER = "order"
 """Concept of words that say that something is done before the rest; a name ends before them."""
 SHORT = "short"
@@ -30,6 +32,7 @@ RETURNS = "returns"
 """The form of what brings a name only where that name is known: "go back to autopilot" names no moment."""
 MAX_SHORT = 3
 """Words a name may have after a bare verb, unless it is in quotation marks."""
+QUANTITY = "quantity"
 _NONE: frozenset[str] = frozenset()
 STARTS_AFTER = "separator"
 COLON = "colon"
@@ -70,6 +73,10 @@ def find_names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topi
             meaning = at = _past_means(tokens, name.end, lexicon)
             continue
         after = _longest(lexicon, tokens, at, CAPTURE)
+        another = max(_longest(lexicon, tokens, at, CHAT), _longest(lexicon, tokens, at, IDIOM))
+        if after < another:  # "call it a day" names nothing
+            at += 1
+            continue
         if not after or not (at == meaning or _begins(tokens, at, lexicon)):
             at += 1
             continue
@@ -191,13 +198,19 @@ def _inside_word(tokens: Sequence[Token], at: int, said: str) -> bool:
 def _fits(tokens: Sequence[Token], at: int, start: int, end: int, lexicon: Lexicon) -> bool:
     """Whether words may be a name: not "demo if it works", and after "load" not "five cars"."""
     short = _only(SHORT, lexicon, tokens, at, start)
-    if short and end - start > MAX_SHORT:
+    if short and (end - start > MAX_SHORT or _counts(lexicon, tokens[start])):
         return False
     if any(_is(lexicon, word, CLAUSE) for word in tokens[start + 1 : end]):
         return False
     senses = [s for stop, found, _ in lexicon.matches(tokens, at, {}, {}) if stop == start for s in found]
     saves = any(sense.concept == CAPTURE and sense.value == SAVES for sense in senses)
     return (saves and not short) or not any(_names_a_thing(lexicon, word) for word in tokens[start:end])
+
+
+def _counts(lexicon: Lexicon, token: Token) -> bool:
+    """Whether a word is an amount or says whose: no name begins so after a bare verb ("load of rubbish")."""
+    senses = lexicon.senses_of((token.text,))
+    return any(sense.concept in (QUANTITY, GLUE) for sense in senses)
 
 
 def _names_a_thing(lexicon: Lexicon, token: Token) -> bool:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 from service.actions import Action
+from service.grammar.answer_words import INSTEAD, TOO
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.sentences import Unsayable
@@ -18,6 +19,9 @@ from service.grammar.tokens import normalise, tokenise
 from service.grammar.topic import ALONE, Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, Drive, MoveThings, Where
+
+MAX_MOVED = 5
+"""So many things are asked about at most, whether they are to be moved."""
 
 MAX_WORDS = 6
 """Longer sentences lack more than one thing."""
@@ -74,19 +78,27 @@ def ask_elsewhere(language: Language, text: str, topic: Topic, parsed: Understoo
 
     What was added may move there, or another one be added; the vehicle is not to turn that way for it.
     """
-    if len(topic.actions) != 1 or len(topic.things) != 1 or topic.undone:
+    if len(topic.actions) != 1 or not 0 < len(topic.things) <= MAX_MOVED or topic.undone:
         return None
-    (done,), (thing,) = topic.actions, topic.things
+    (done,) = topic.actions
     drives = isinstance(parsed, Understood) and all(isinstance(each, Drive) for each in parsed.actions)
     if not isinstance(done, Add) or not (drives or isinstance(parsed, Refused)):
+        return None
+    tokens = tokenise(normalise(text), language.data.contractions)
+    if language.data.answers.ending(tokens, INSTEAD) or language.data.answers.ending(tokens, TOO):
         return None
     where = _place(language, text, done)
     if where is None:
         return None
-    moved = MoveThings(kind=done.kind, count=1, where=Where(id=thing), to=where)
+    moved = tuple(
+        MoveThings(kind=done.kind, count=1, where=Where(id=thing), to=where) for thing in topic.things
+    )
+    if len(moved) > 1:
+        anew = replace(done, where=where)
+        return _question(language, text, language.data.messages["which"], [moved, (anew,)])
     another = Add(kind=done.kind, count=done.count, where=where)
     own = [parsed.actions] if isinstance(parsed, Understood) else []
-    return _question(language, text, language.data.messages["which"], [(moved,), (another,), *own])
+    return _question(language, text, language.data.messages["which"], [moved, (another,), *own])
 
 
 def _place(language: Language, text: str, done: Add) -> Where | None:

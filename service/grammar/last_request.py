@@ -45,8 +45,12 @@ def asked_anew(done: tuple[Action, ...], alone: tuple[Action, ...]) -> tuple[Act
     match question, request:
         case Ask(about="why" | "why_not", move=Move()), Drive(move=move):
             return (replace(question, move=move),)
+        case Advise(), Ask(about="what_if", change=(Add(kind=kind, count=1, where=None),)):
+            return (replace(question, hazard=kind),)
         case Advise(), Add(kind=kind, count=1, where=None):
             return (replace(question, hazard=kind),)
+        case Ask(about="what_if", change=(Add(count=1) as change,)), Add(kind=kind, count=1, where=None):
+            return (replace(question, change=(replace(change, kind=kind),)),)
         case Ask(about="scene"), Add(kind=kind, count=1, where=None):
             return (replace(question, kind=kind),)
     return None

@@ -11,20 +11,40 @@ from collections.abc import Callable, Iterator
 
 from service.grammar.accounting import MARKERS
 from service.grammar.data import LanguageData
+from service.grammar.fragments import BEGINS_NEGATION
 from service.grammar.frame_use import dropped
 from service.grammar.frames import Frame
+from service.grammar.lanes_from_right import FROM_RIGHT
 from service.grammar.lattice import GLUE, NAME, NUMBER, UNIT
 from service.grammar.lexicon import SECOND
 from service.grammar.noun_phrases import COLON, NOUN, QUANTITY
+from service.grammar.old_values import FROM, OLD_VALUE
 from service.grammar.parse_types import Ambiguous, Parse, Understood
 from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR, SPEAKER
 from service.grammar.pointing import POINTING
+from service.grammar.time_clauses import TIME
 
 ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
     | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
     | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
-    | {"refers", "taught", "repeated", "repair", "contrast", "order", "chat", "chat_filler"}
+    | {
+        "refers",
+        "taught",
+        "repeated",
+        "repair",
+        "contrast",
+        "order",
+        "chat",
+        "chat_filler",
+        "detail",
+        "spoken_tick",
+        FROM_RIGHT,
+        BEGINS_NEGATION,
+        FROM,
+        OLD_VALUE,
+        TIME,
+    }
     | POINTING
     | MARKERS
 )

@@ -76,7 +76,8 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
         nouns = [edge for edge in lattice.edges[at] if edge[2][0] in named]
         if not nouns:
             continue
-        gathered = _gather(amounts, at)
+        things = any(edge.concept.split(".")[1] == THINGS for edge in nouns)
+        gathered = _gather(amounts, at, beyond=things)
         if any(edge.start < at < edge.end for edge in odd):  # of "every other car", "other car" is no noun
             gathered.said.add(ODD)
         here = lattice.edges[at]
@@ -120,14 +121,19 @@ def understood_nouns(lattice: Lattice, start: int, end: int, noun: Edge, vague: 
     return found
 
 
-def _gather(amounts: dict[int, list[Edge]], noun: int) -> _Gathered:
-    """The quantities that end where the noun starts, longest words first, at most one number."""
+def _gather(amounts: dict[int, list[Edge]], noun: int, *, beyond: bool = True) -> _Gathered:
+    """The quantities that end where the noun starts, longest words first, at most one number.
+
+    Unless `beyond`, "over" is none of them: what it says before ticks or runs is for their frames.
+    """
     gathered = _Gathered(noun)
     while gathered.start in amounts:
         before = amounts[gathered.start]
         if gathered.number is not None:
             before = [edge for edge in before if edge.sense.concept != NUMBER]
         before = [edge for edge in before if edge.sense.value != OF_THE or edge.start in amounts]
+        if not beyond:
+            before = [edge for edge in before if edge.sense.value != BEYOND]
         if not before:
             break
         if gathered.number is None:
@@ -151,8 +157,7 @@ def _numbered(amounts: Mapping[int, Sequence[Edge]], at: int) -> bool:
 def _joined(gathered: _Gathered, noun: Edge, vague: int) -> Edge:
     _, name, grammatical = noun.concept.split(".")
     if BEYOND in gathered.said:
-        said = (gathered.said - {BEYOND}) | ({ODD} if name == THINGS else set())
-        gathered = _Gathered(gathered.start, gathered.number, said)
+        gathered = _Gathered(gathered.start, gathered.number, {ODD})
     form, count = _form(gathered, grammatical == "many", vague)
     return Edge(gathered.start, noun.end, Sense(f"{name}.{form}", Amount(str(noun.sense.value), count)))
 
@@ -188,7 +193,7 @@ def _form(gathered: _Gathered, many: bool, vague: int) -> tuple[str, int | float
         return (NEAREST, number) if said <= {NEAREST, "the", "those"} else (ODD, None)
     if number is not None:
         if "all" in said:
-            return ("all", None)
+            return ("all", None) if isinstance(number, int) else (ODD, None)
         if said & {"every", "that", "vague"}:
             return (ODD, None)
         if "those" in said:
@@ -253,6 +258,8 @@ def _number_after(lattice: Lattice, phrase: Edge) -> Edge | None:
     for edge in lattice.edges[at]:
         if edge.sense.concept == NUMBER:
             amount = Amount(phrase.sense.value.of, edge.sense.value)
+            of_them = [e.end for e in _at(lattice, edge.end) if e.sense.value == OF_THE]
+            edge = edge._replace(end=max(of_them, default=edge.end))
             more = next((e for e in _at(lattice, edge.end) if e.sense.value == "more"), None)
             if more is not None:
                 return Edge(phrase.start, more.end, Sense(f"{name}.more", amount))

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from service.grammar.clauses import Clause
+from service.grammar.composition import asks
 from service.grammar.fragments import BUT, PAUSE, STOP, THEN
 from service.grammar.free_text import ORDER
 from service.grammar.lattice import Edge, Lattice
@@ -19,10 +20,17 @@ BEFOREHAND = "beforehand"
 
 
 def orders(clauses: Sequence[Clause], lattice: Lattice) -> list[list[Clause]]:
-    """The orders that may be meant, the likeliest first; one of them where nothing says otherwise."""
+    """The orders that may be meant, the likeliest first; one of them where nothing says otherwise.
+
+    None where something shall be done before nothing: "before that, turn left".
+    """
     said = list(clauses)
     if ORDER not in lattice.concepts:
         return [said]
+    first = said[0].end if len(said) == 1 else said[0].start
+    slots = [(edge.start, edge.end) for edge in said[0].filled.slots]
+    if any(_is_beforehand(edge, slots) for edge in lattice.between(0, first)):
+        return []
     for at in range(len(said) - 1, 0, -1):
         word = _word(said[at], lattice)
         if word is None or _in_a_list(said, at, word):
@@ -30,13 +38,42 @@ def orders(clauses: Sequence[Clause], lattice: Lattice) -> list[list[Clause]]:
         first, last = _group(said, at, word)
         if not first:
             continue
-        moved = said[first:last]
-        put_first = replace(moved[0], after=PAUSE)
-        put_back = replace(said[0], after=THEN)
-        found = [put_first, *moved[1:], put_back, *said[1:first], *said[last:]]
-        sure = said[first].after == BUT or (len(said) == 2 and said[first].after != STOP)
-        return [found] if sure or (word.sense.value == BEFOREHAND and first == at) else [found, said]
+        begins = _begins(said, first)
+        found = [_moved(said, begin, first, last) for begin in begins]
+        if len(found) > 1:
+            return found
+        sure = said[first].after == BUT or (begins[0] + 1 == first and said[first].after != STOP)
+        return found if sure or (word.sense.value == BEFOREHAND and first == at) else [*found, said]
     return [said]
+
+
+def _is_beforehand(edge: Edge, slots: Sequence[tuple[int, int]]) -> bool:
+    """Whether an edge says that something comes before, and is no part of what is said."""
+    inside = any(start < edge.end and edge.start < end for start, end in slots)
+    return edge.concept == ORDER and edge.sense.value == BEFOREHAND and not inside
+
+
+def _begins(clauses: Sequence[Clause], first: int) -> list[int]:
+    """Before which requests that at `first` may be put.
+
+    A full stop and a question bound how far back that is; where only "then" does, it is not known.
+    """
+    known = [0]
+    for at in range(first - 1, 0, -1):
+        if clauses[at].after == STOP or asks(clauses[at - 1].actions):
+            known = [at]
+            break
+        if clauses[at].after == THEN and known == [0]:
+            known = [at, 0]
+    return known
+
+
+def _moved(clauses: Sequence[Clause], begin: int, first: int, last: int) -> list[Clause]:
+    """The requests with those of `[first, last)` put before that at `begin`."""
+    put_first = replace(clauses[first], after=clauses[begin].after if begin else PAUSE)
+    put_back = replace(clauses[begin], after=THEN)
+    moved = [put_first, *clauses[first + 1 : last]]
+    return [*clauses[:begin], *moved, put_back, *clauses[begin + 1 : first], *clauses[last:]]
 
 
 def _word(clause: Clause, lattice: Lattice) -> Edge | None:
@@ -54,7 +91,10 @@ def _word(clause: Clause, lattice: Lattice) -> Edge | None:
 
 
 def _in_a_list(clauses: Sequence[Clause], at: int, word: Edge) -> bool:
-    """Whether "first" begins what goes on with "then", or comes after it."""
+    """Whether "first" begins what goes on with "then", or comes after it; not in "pause first, then …"."""
+    slots = [edge.end for edge in clauses[at].filled.slots if edge.start < edge.end]
+    if at and slots and max(slots) <= word.start and clauses[at].after != THEN:
+        return False
     if word.sense.value == BEFOREHAND or clauses[at].after == BUT:
         return False
     return clauses[at].after == THEN or any(later.after == THEN for later in clauses[at + 1 :])

@@ -36,15 +36,21 @@ from service.grammar.parse_types import (
 from service.grammar.paths import ALLOWS, SEPARATOR
 from service.grammar.pointing import add_pointing
 from service.grammar.references import Unclear, add_referents
+from service.grammar.same_sentence import named_before
 from service.grammar.sentences import Sentences, Unsayable
-from service.grammar.small_talk import small_talk
+from service.grammar.small_talk import same_again, small_talk
+from service.grammar.spoken_tick import name_spoken_tick
 from service.grammar.subordinate import read_all
 from service.grammar.suggestions import Suggestions, meanings_of, turned_round
+from service.grammar.time_clauses import read_in_time
 from service.grammar.tokens import Token
 from service.grammar.topic import Topic
 from service.grammar.unparsed_span import Gap, GapFinder
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, Remove
+
+SHIFT = "v.shift"
+"""Concept of verbs that move things on the road."""
 
 CHOICE_STEPS = 10
 """What one action of a choice costs: it is validated, and said back."""
@@ -91,12 +97,18 @@ def _once(
     for clause in clauses:
         again = bool(values) and clause.after in _EMPHASIS and clause.actions == values[-1:]
         said = alignment(clause.filled, clause.actions, tokens)
-        if again and clause.actions[0]["do"] in _STEADY:
+        if again and (clause.actions[0]["do"] in _STEADY or _names_again(clause)):
             spans[-1] += said[0]
         else:
             values += clause.actions
             spans += said
     return values, tuple(spans)
+
+
+def _names_again(clause: Clause) -> bool:
+    """Whether it says once more which setting was meant: "turn the noise down, the sensor noise"."""
+    handed_on = any(edge.start < clause.start for edge in clause.filled.slots)
+    return handed_on and clause.after == "pause" and clause.actions[0]["do"] == "adjust"
 
 
 _STEADY = verbs_where(lambda traits: traits.idempotent)
@@ -138,8 +150,9 @@ class Reading:
         unknown = self._lattice.uncovered()
         if unknown:
             return self._refuse(self._stretches(unknown), (), unknown=unknown)
-        if asking and (manners := small_talk(self._lattice)):
+        if asking and (manners := small_talk(self._lattice) or same_again(self._lattice)):
             return Understood(self._text, load(manners), self._corrections)
+        name_spoken_tick(self._lattice, self._topic.tick)
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
         add_pointing(self._lattice)
@@ -154,7 +167,9 @@ class Reading:
         )
         if question is not None:
             return self._ask(question) if asking else self._refuse([self._plain], ())
-        clauses, *otherwise = orders(clauses, self._lattice)
+        if not (found := orders(clauses, self._lattice)):
+            return self._refuse([self._plain.strip()], ())
+        clauses, *otherwise = found
         if (unsure := next((clause for clause in clauses if clause.instead), None)) is not None:
             return self._together_or_apart(clauses, unsure, asking=asking)
         if (both := contradiction(clauses, self._lattice)) is not None:
@@ -164,6 +179,8 @@ class Reading:
         values, spans = _once(clauses, self._tokens)
         if not values:
             return self._refusal("negation", self._messages["negation"])
+        if self._drives_a_thing(values):
+            return self._refuse([self._plain.strip()], (), asking=asking)
         try:
             actions = load(values)
         except ValidationError:
@@ -172,6 +189,14 @@ class Reading:
             return self._more_of_what(actions) if asking else self._refuse([self._plain], ())
         supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
         return Understood(self._text, actions, self._corrections, supposes, spans)
+
+    def _drives_a_thing(self, values: Sequence[dict[str, Any]]) -> bool:
+        """Whether the vehicle would turn although something that is not known was to be moved: "move it left"."""
+        return any(value["do"] == "drive" for value in values) and any(
+            edge.concept == SHIFT and edge.end == unclear.start
+            for unclear in self._unclear
+            for edge in self._lattice.between(max(0, unclear.start - 2), unclear.start)
+        )
 
     def _divide(self, start: int, end: int, moods: frozenset[str]) -> Divided:
         """The clauses of tokens `[start, end)`, with these forms in place."""
@@ -310,12 +335,39 @@ class Reading:
         part = divided.failed
         if part is None:
             return self._refuse([self._plain.strip()], understood)
+        if asking and (meant := self._said_again(divided)) is not None:
+            return meant
+        if asking and (in_time := read_in_time(self._lattice, self._divide)):
+            question = self._offer(in_time, self._messages["in_order"])
+            if question is not None:
+                return question
         if lost := self._lost(part):
             return self._refuse(lost, understood)
         failed = self._written(part.start, part.end)
         if any(_impossible_number(edge.sense.value) for edge in self._lattice.between(part.start, part.end)):
             return self._refusal("impossible", self._messages["impossible"].format(phrase=failed), (failed,))
         return self._refuse([failed], understood, asking=asking, failed=part)
+
+    def _said_again(self, divided: Divided) -> Parse | None:
+        """The sentence with what "it" stands for in its place, where that was named just before."""
+        found = named_before(self._lattice, divided)
+        if found is None:
+            return None
+        word, named = found
+        start, end = self._tokens[word.start].start, self._tokens[word.end - 1].end
+        whole = self._plain[:start] + self._written(named.start, named.end) + self._plain[end:]
+        parsed = self._language.read(whole, self._topic, self._work, asking=False)
+        if not isinstance(parsed, Understood):
+            return None
+        return Understood(self._text, parsed.actions, self._corrections, parsed.supposes)
+
+    def _offer(self, readings: Sequence[Sequence[Clause]], question: str) -> Ambiguous | None:
+        """A question with these readings to choose from; None where they cannot all be said."""
+        try:
+            choices = [self._choice(_once(each, self._tokens)[0]) for each in readings]
+        except (Unsayable, ValidationError):
+            return None
+        return Ambiguous(self._text, question, tuple(choices))
 
     def _gap(self, unknown: Sequence[int], failed: Fragment | None) -> Gap | None:
         """The smallest stretches that hold what is unknown, or make a part fail, and what is left without."""

@@ -17,7 +17,7 @@ from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
 from service.grammar.parse_types import Parse, Refused, Understood
-from service.grammar.said_before import done_anew, take_back
+from service.grammar.said_before import done_anew, take_back, take_back_change
 from service.grammar.tokens import Token
 from service.grammar.topic import Phrases, Topic
 from sim.actions import Adjust, MoveThings, Remove, Replace, Set, Swap, Where
@@ -138,12 +138,20 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
             return Edge(start, end, Sense(REPEATED, asked))
         case {"its": str() as side}:
             return _beside_it(edge, lattice, topic, side)
+        case {"some": int() | "half" as number}:
+            return _part(start, end, topic, number)
+        case {"all": int() as number}:
+            return _so_many(start, end, topic, number)
+        case {"others": int() as number}:
+            left = _others(start, end, topic, one=False)
+            fits = isinstance(left, Edge) and len(left.sense.value.ids) == number
+            return left if fits else Unclear(start, end)
         case "next":
             return _next(start, end, topic)
         case "other" | "others" as which:
             return _others(start, end, topic, one=which == "other")
         case "back" if _took_away(topic):
-            return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
+            return Edge(start, end, Sense(REPEATED, dump((take_back_change(topic),))))
         case "back_both" | "undo_both" as which if steps := steps_of_two(
             topic, put_back=which == "back_both"
         ):
@@ -151,8 +159,8 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
         case "not_that" if _pointed_at(topic):
             return Edge(start, end, Sense(REPEATED, dump((take_back(topic),))))
         case "closest" if topic.listed:
-            kinds = {kind_of(name) for name in topic.listed}
-            kind = {"kind": kinds.pop()} if len(kinds) == 1 else {}
+            kinds = {kind_of(name) for name in topic.batch or topic.listed}
+            kind = {"kind": kinds.pop(), "count": 1} if len(kinds) == 1 else {}
             return Edge(start, end, Sense(REPEATED, [{"do": "ask", "about": "scene", **kind}]))
         case "same_lane" | "other_lane" as which:
             lane = _lane_before(lattice, start, topic.where)
@@ -229,16 +237,37 @@ def _next(start: int, end: int, topic: Topic) -> Edge | Unclear:
 def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:
     """Those of what was told last that were not just spoken of."""
     there = tuple(name for name in topic.listed if name not in topic.gone)
-    left = tuple(name for name in there if name not in topic.things) or there
+    left = tuple(name for name in there if name not in topic.things)
+    left = left or tuple(name for name in topic.before if name not in topic.things) or there
     if not left or (one and len(left) > 1):
         return Unclear(start, end, left[-MAX_CANDIDATES:])
     return _things(start, end, left)
 
 
+def _part(start: int, end: int, topic: Topic, number: int | str) -> Edge | None:
+    """So many of the things spoken of ("two of them"), the latest of them.
+
+    None where they are all of their kind: then the amount alone says it.
+    """
+    there = len(topic.things)
+    count = max(1, there // 2) if isinstance(number, str) else number
+    if not topic.others or not 0 < count <= there or there < 2:
+        return None
+    return _things(start, end, topic.things[-count:])
+
+
+def _so_many(start: int, end: int, topic: Topic, number: int) -> Edge | Unclear:
+    """All so many things that were spoken of ("all three"): by one request, or by all of them."""
+    for things in (topic.things, (*topic.before, *topic.things), topic.added):
+        if number > 1 and len(things) == number:
+            return _things(start, end, things)
+    return Unclear(start, end)
+
+
 def _took_away(topic: Topic) -> bool:
     """Whether the last request took things off the road."""
-    away = any(isinstance(action, _MOVED) for action in topic.actions)
-    return away and bool(topic.steps) and not topic.undone
+    away = any(isinstance(action, _MOVED) for action in topic.changed)
+    return away and bool(topic.changed_steps) and not topic.undone
 
 
 def _pointed_at(topic: Topic) -> bool:

@@ -12,12 +12,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 from service.actions import Action
+from service.grammar.accounting import VERB
 from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
+from service.grammar.noun_phrases import QUANTITY
 from service.grammar.parse_types import Choice, Understood
 from service.grammar.paths import SEPARATOR
 from service.grammar.span_patterns import REPAIR, SKIPPED, SpanPattern, ends_of_pieces, steps_of
 from service.grammar.tokens import Token
 from service.grammar.work_budget import WorkBudget
+from sim.actions import Add
 
 ALWAYS = "always"
 """Value of those that do wherever they stand: "I mean"."""
@@ -28,11 +31,27 @@ PERHAPS = "perhaps"
 DROPPED = "dropped"
 """That of words after which stands what shall not be: "instead of"."""
 
+DENIED = "denied"
+"""That of words after which an amount stands that is not meant: "to 0.4, not 0.5", "not two but four"."""
+
 NUMBERS = "numbers"
 """That of words that take back only where a number follows: "no three"."""
 
+CAPTURES = "captures"
+"""Concept of verbs after which a name stands: "save this as"."""
+
+FOIL = "foil"
+"""Concept of a move that another one is compared with: "instead of right"."""
+_COMPARING = frozenset(("q.why", "had_moved"))
+"""Concepts of questions that compare; anywhere else such words say what shall not be."""
+
 MAX_TRIED = 24
 """Places a correction is tried in; a sentence has fewer."""
+
+_AMOUNTS = frozenset((NUMBER, "length", "speed", "seconds", "fraction", "times", "part_of"))
+
+_DEFINITE = ("that", "those", "the", "of_the", "nearest", "all", "every", "both")
+"""Quantities of things that are on the road already."""
 
 _ALIKE = (
     ("add", "remove", "set_count", "scenario"),
@@ -70,16 +89,19 @@ class Repair:
         """The first thing taken back with something in its place, if any."""
         if REPAIR not in lattice.concepts:
             return None
+        skipped = SKIPPED if lattice.concepts & _COMPARING else SKIPPED | {FOIL}
         edges = sorted((e for e in lattice.all() if e.concept == REPAIR), key=lambda e: (e.start, -e.end))
         for edge in edges:
             if any(
-                other.end > edge.end and other.concept not in SKIPPED for other in lattice.edges[edge.start]
+                other.end > edge.end and other.concept not in skipped for other in lattice.edges[edge.start]
             ):
                 continue  # the first word of something else: "wait a second"
             one = cls(plain, tokens, lattice, edge, work)
             if edge.sense.value == NUMBERS and not one._begins_with_number():
                 continue
-            if edge.sense.value == DROPPED and one._says_something(one._again, one._tail):
+            if edge.sense.value == DENIED and not one._denies_amount():
+                continue
+            if edge.sense.value in (DROPPED, DENIED) and one._says_something(one._again, one._tail):
                 return one
             if one._says_something(0, one._end) and one._says_something(one._again, one._tail):
                 return one
@@ -102,6 +124,8 @@ class Repair:
 
     def readings(self, read: Read) -> list[Choice] | None:
         """The sentences that may be meant; None where nothing was taken back after all."""
+        if self._value == DENIED:
+            return self._without(read) or None
         if self._value == DROPPED:
             return self._without(read)
         if self._value == ALWAYS and self._alike(read) is False:
@@ -114,13 +138,38 @@ class Repair:
         """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""
         said = ends_of_pieces(steps_of(self._lattice), self._again, self._work)
         found: list[Choice] = []
-        for end in sorted(end for end in said if end <= self._tail and self._stands_elsewhere(end)):
+        for end in sorted(end for end in said if end <= self._tail and self._is_apart(end)):
             before = self._written(0, self._edge.start if end < self._tail else self._end)
-            text = f"{before} {self._written(end, self._lattice.size)}".strip(" ,;")
+            text = f"{before} {self._written(self._past_separators(end), self._lattice.size)}".strip(" ,;")
             parsed = read(text)
-            if isinstance(parsed, Understood) and all(c.actions != parsed.actions for c in found):
+            if not isinstance(parsed, Understood) or (self._points(end) and _adds(parsed.actions)):
+                continue
+            if all(c.actions != parsed.actions for c in found):
                 found.append(Choice(text, parsed.actions))
         return found
+
+    def _is_apart(self, end: int) -> bool:
+        """Whether what is not wanted ends there: before other words of its kind, and not inside its request.
+
+        At the beginning it ends at a mark ("instead of adding a cone, add a bus") or before the verb of what
+        is wanted ("instead of A* use Dijkstra"): "instead of making it night" wants nothing.
+        """
+        if self._end == 0 and end < self._tail:
+            dropped = list(self._lattice.between(self._again, end))
+            if any(edge.concept.startswith((VERB, CAPTURES)) for edge in dropped):
+                return False
+            if all(edge.concept in SKIPPED or edge.sense.value is None for edge in dropped):
+                return False
+            if not any(edge.concept.startswith(VERB) for edge in self._lattice.edges[end]):
+                return False
+        return self._stands_elsewhere(end)
+
+    def _points(self, end: int) -> bool:
+        """Whether what is dropped are things on the road: "instead of that cone" is more than not to add one."""
+        return any(
+            edge.concept == QUANTITY and edge.sense.value in _DEFINITE
+            for edge in self._lattice.between(self._again, end)
+        )
 
     def _stands_elsewhere(self, end: int) -> bool:
         """Whether something of the same pattern as what is dropped is kept; else too much is dropped."""
@@ -222,11 +271,21 @@ class Repair:
         after = self._lattice.edges[self._again] if self._again < self._lattice.size else []
         return any(edge.concept == NUMBER for edge in after)
 
+    def _denies_amount(self) -> bool:
+        """Whether an amount follows and nothing else, up to the end of the part."""
+        here = self._lattice.edges[self._again] if self._again < self._lattice.size else []
+        return any(edge.concept in _AMOUNTS and edge.end == self._tail for edge in here)
+
     def _says_something(self, start: int, end: int) -> bool:
         return any(edge.concept not in SKIPPED for edge in self._lattice.between(start, end))
 
     def _written(self, start: int, end: int) -> str:
         return self._plain[self._tokens[start].start : self._tokens[end - 1].end] if start < end else ""
+
+
+def _adds(actions: Sequence[Action]) -> bool:
+    """Whether something is put on the road."""
+    return any(isinstance(action, Add) for action in actions)
 
 
 def _as_many(found: list[Choice], as_said: object) -> list[Choice]:

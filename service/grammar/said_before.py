@@ -50,3 +50,15 @@ def done_anew(topic: Topic, actions: tuple[Action, ...]) -> tuple[Action, ...]:
 def take_back(topic: Topic) -> Undo:
     """The undo of the last request."""
     return Undo(steps=None if topic.steps == 1 else topic.steps)
+
+
+def take_back_change(topic: Topic) -> Undo:
+    """The undo of the last change, whatever was asked since."""
+    return Undo(steps=None if topic.changed_steps == 1 else topic.changed_steps)
+
+
+def shape(actions: Sequence[Action]) -> list[object]:
+    """What kinds of request some actions are."""
+    return [
+        (action.do, getattr(action, "about", None), getattr(action, "parameter", None)) for action in actions
+    ]

@@ -47,6 +47,7 @@ from sim.actions import (
     SetCount,
     SetMode,
     Swap,
+    Where,
 )
 from sim.planner_names import BUILT_IN, canonical
 
@@ -74,10 +75,16 @@ class Sentences(ThingSentences):
         """What a value of a setting is called. Raises `Unsayable`."""
         return self._value(parameter, name)
 
+    def view(self, name: str) -> str:
+        """What a view is called. Raises `Unsayable`."""
+        return self._word("views", name)
+
     def sentence(self, actions: Sequence[Action]) -> str:
         """One sentence for all of them, in order. Raises `Unsayable`."""
         if not actions or not self._words:
             raise Unsayable("nothing is said by no sentence, and a language may have none")
+        if len(actions) > 1 and any(isinstance(each, Ask) and each.about == "detail" for each in actions):
+            raise Unsayable("what wants the last answer again says nothing else")
         if len({isinstance(action, Chat) for action in actions}) > 1:
             raise Unsayable("small talk beside a request says nothing")
         whole = ""
@@ -209,12 +216,25 @@ class Sentences(ThingSentences):
                 key: str = ask.about
                 if ask.move is not None and ask.about == "why":
                     key += "_move"
-                if ask.tick is not None:
-                    key += "_tick"
+                if ask.instead is not None:
+                    key += "_instead"
                 move = "" if ask.move is None else self._word("asked", ask.move)
-                return self._say(key, move=move, tick=ask.tick)
+                other = "" if ask.instead is None else self._word("foil", ask.instead)
+                return self._at_tick(ask, key, move=move, other=other)
+            case "what_if" if ask.move is not None:
+                return self._at_tick(ask, "what_if_moved", move=self._word("had_moved", ask.move))
+            case "detail":
+                return self._word("detail", ask.how)
+            case "other":
+                return self._other(ask)
+            case "pattern":
+                if (ask.tick, ask.until) != (None, None):
+                    raise Unsayable("a pattern is one of the whole episode")
+                return self._say("pattern") if ask.move is None else self._word("patterns", ask.move)
             case "what_if":
                 return self._say("what_if", change=self.sentence(ask.change or ()))
+            case "scene" if ask.kind is not None and ask.count is not None:
+                return self._say("scene_nearest", thing=self._entry("things", ask.kind)[0])
             case "scene" if ask.kind is not None:
                 return self._say("scene_kind", things=self._entry("things", ask.kind)[1])
             case "metrics" if ask.metric is not None:
@@ -227,6 +247,8 @@ class Sentences(ThingSentences):
                 return self._say("term", term=self._word("terms", ask.term))
             case "history":
                 return self._history(ask)
+            case "outlook" | "blame" | "planners":
+                return self._of_what(ask)
             case "changes" if ask.count is not None or ask.tick is not None:
                 if ask.count is not None and ask.tick is not None:
                     raise Unsayable("changes are counted, or those since a tick")
@@ -234,6 +256,38 @@ class Sentences(ThingSentences):
                 return self._say(key, count=ask.count, tick=ask.tick)
             case about:
                 return self._say(about)
+
+    def _at_tick(self, ask: Ask, key: str, **parts: str) -> str:
+        """A question about a tick, one so many ticks or seconds ago, or none."""
+        when = ""
+        if ask.tick is not None:
+            when = self._say("at_tick", tick=ask.tick)
+        elif ask.ticks is not None:
+            when = self._say("ticks_ago" if ask.ticks != 1 else "tick_ago", ticks=ask.ticks)
+        elif ask.seconds is not None:
+            when = self._say("seconds_ago", seconds=number(ask.seconds))
+        return self._say(key, when=when, **parts)
+
+    def _other(self, ask: Ask) -> str:
+        which = ask.which
+        if which is None:
+            raise Unsayable("nobody is asked about")
+        if which.id is not None:
+            who = which.id
+        else:
+            parts = {name: getattr(which, name) for name in Where.__dataclass_fields__}
+            where = Where(**parts)
+            if which.nearest and where != Where(nearest=True):
+                raise Unsayable("the nearest of a place")
+            if where == Where():
+                raise Unsayable("no one in particular")
+            noun = self._entry("things", which.kind)
+            words = "the_nearest" if which.nearest else "the_one"
+            who = self._say(words, thing=noun[0], where="" if which.nearest else self._where(where))
+        if ask.what == "going":
+            return self._say("other_going", who=who)
+        move = self._word("others_did", ask.move or "any")
+        return self._at_tick(ask, "other_why", who=who, move=move)
 
     def _setting_asked(self, ask: Ask) -> str:
         name = str(ask.parameter)
@@ -251,9 +305,24 @@ class Sentences(ThingSentences):
 
     def _history(self, ask: Ask) -> str:
         key = str(ask.what)
+        if ask.what == "riskiest" and ask.tick is not None:
+            key += "_between"
+        if ask.what == "similar":
+            key += "_to" if ask.tick is not None else ""
+            key += "" if ask.count is None else "_one" if ask.count == 1 else "_count"
         if ask.ticks is not None:
             key += "_ticks" if ask.ticks != 1 else "_tick"
-        return self._word("history", key).format(tick=ask.tick, until=ask.until, ticks=ask.ticks)
+        return self._word("history", key).format(
+            tick=ask.tick, until=ask.until, ticks=ask.ticks, count=ask.count
+        )
+
+    def _of_what(self, ask: Ask) -> str:
+        """A question of one of several about the same: what lies ahead, blame, planners."""
+        named = ask.planners or (() if ask.planner is None else (ask.planner,))
+        planners = self._words["and"].join([self._value("planner", planner) for planner in named])
+        key = str(ask.what) + ("_of" if named else "") + ("" if ask.tick is None else "_tick")
+        move = "" if ask.move is None else self._word("asked", ask.move)
+        return self._word(ask.about, key).format(planners=planners, tick=ask.tick, move=move)
 
     def _evaluate(self, action: Evaluate) -> str:
         planners = [self._value("planner", planner) for planner in action.planners or ()]

@@ -7,10 +7,10 @@ questions about settings come of it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import get_args
+from typing import cast, get_args
 
 from service.actions import Action, Ask
-from service.grammar.answer_words import FOLLOWS, OF_SETTING, SETTING, SO_MUCH, TO_VALUE, TOO
+from service.grammar.answer_words import CORRECTS, FOLLOWS, OF_SETTING, SETTING, SO_MUCH, TO_VALUE, TOO
 from service.grammar.engine import Language
 from service.grammar.parse_types import Parse, Understood
 from service.grammar.sentences import Unsayable
@@ -38,6 +38,8 @@ def setting_of(actions: Sequence[Action]) -> tuple[str, object] | None:
             return parameter, value
         case Adjust(parameter=parameter):
             return parameter, None
+        case Ask(about="what_if", change=(Set(parameter=parameter, value=value),)):
+            return parameter, value
         case Ask(about="term", term=str() as term) if term in get_args(Parameter):
             return term, None
         case Ask(about="term", term=str() as term):
@@ -76,10 +78,15 @@ def read_of_setting(language: Language, text: str, topic: Topic, parsed: Parse) 
 
 def _about_settings(actions: Sequence[Action], *, explained: bool) -> bool:
     if explained:
-        return all(isinstance(action, Ask) and action.about == "term" for action in actions)
+        return all(isinstance(action, Ask) and action.about in ("term", "setting") for action in actions)
     return all(
         isinstance(action, Set | Adjust)
-        or (isinstance(action, Ask) and action.about in ("setting", "term", "options"))
+        or (
+            isinstance(action, Ask)
+            and action.about == "what_if"
+            and all(isinstance(each, Set | Adjust) for each in action.change or ())
+        )
+        or (isinstance(action, Ask) and action.about in ("setting", "term", "options", "changes"))
         for action in actions
     )
 
@@ -98,9 +105,13 @@ def _in_full(
     if (whole := answers.meant(rest, OF_SETTING)) is not None:
         yield str(whole).format(setting=name)
     numbers = {at: found for at in range(len(rest)) if (found := language.data.numbers.read(rest, at))}
-    if isinstance(topic.actions[0], Set | Adjust) and (by := answers.meant(rest, SO_MUCH, numbers)):
+    changed = setting_of(topic.changed)
+    again = isinstance(topic.actions[0], Set | Adjust) or (changed and changed[0] == spoken_of[0])
+    if again and (by := answers.meant(rest, SO_MUCH, numbers)):
         amount = by.get("up") or -by["down"]
-        yield language.sentence((Adjust(parameter=topic.actions[0].parameter, by=amount),))
+        yield language.sentence((Adjust(parameter=cast(Parameter, spoken_of[0]), by=amount),))
+    if not answers.beginning(tokens, CORRECTS):
+        yield f"{written} {answers.setting_named.format(setting=name)}"
     end, template = answers.longest(rest, 0, TO_VALUE)
     if template is not None and end < len(rest):
         yield str(template).format(setting=name, value=plain[rest[end].start : rest[-1].end])
@@ -109,7 +120,11 @@ def _in_full(
         if end > at:
             before = plain[rest[0].start : rest[at].start]
             after = plain[rest[end - 1].end : rest[-1].end]
-            for named in (*_value_names(language, spoken_of), name):
+            for named in (
+                *_value_names(language, spoken_of),
+                name,
+                answers.setting_named.format(setting=name),
+            ):
                 yield f"{before}{named}{after}"
     asked = isinstance(topic.actions[0], Ask) or text.rstrip().endswith("?")
     if start and asked and answers.setting_asked:

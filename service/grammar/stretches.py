@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence, Set
+from dataclasses import dataclass, field
+from typing import Any
 
 from service.grammar.fragments import PAUSE, STOP
 from service.grammar.lattice import Edge, Lattice
@@ -36,8 +37,8 @@ class Context:
     """Whether it ended with a place: a number alone after it may be of more things, or of another place."""
     asks: bool = False
     """Whether it is a question."""
-    places: frozenset[str] = frozenset()
-    """By what its places are given: "lane", "row"."""
+    places: Mapping[str, Any] = field(default_factory=dict)
+    """By what its places are given, and what they are: "lane", "row"."""
 
 
 class Stretches:

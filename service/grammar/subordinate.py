@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 from service.actions.table import WhatIf, verbs_where
-from service.grammar.clauses import Clause, Divided
-from service.grammar.fragments import STOP, Fragment
+from service.grammar.clauses import SCENARIO, Clause, Divided
+from service.grammar.composition import asks
+from service.grammar.fragments import PAUSE, STOP, Fragment
 from service.grammar.frames import Filled, Frame
 from service.grammar.lattice import GLUE, NAME, Edge, Lattice
 from service.grammar.paths import SEPARATOR
 
 WHAT_IF = "what_if"
+HAD_MOVED = "had_moved"
 IF = "if"
 THEN_WHAT = "then_what"
 TEACH = "teach"
@@ -37,11 +40,23 @@ _FRAME = Frame("subordinate", (), frozenset(), frozenset())
 def read_all(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided | Fragment:
     """The clauses of all sentences in `[start, end)`, or the part of one that nothing fits."""
     whole = Divided()
-    for first, last in _sentences(lattice, start, end):
+    for after, first, last in _sentences(lattice, start, end):
+        if (supposed := _move_supposed(lattice, first, last, divide)) is not None:
+            whole.clauses += supposed.clauses
+            continue
         result = _read_subordinate(lattice, first, last, divide)
         if isinstance(result, Fragment):
             return result
         divided = Divided([result]) if result else divide(first, last, frozenset())
+        if whole.clauses and divided.clauses and _may_go_on(whole.clauses[-1], divided.clauses[0]):
+            return Fragment(after, first, last)
+        if result is not None and result.end < last:
+            rest = read_all(lattice, result.end, last, divide)
+            if isinstance(rest, Fragment):
+                return rest
+            divided = Divided([result, *rest.clauses], rest.failed)
+        if divided.clauses:
+            divided.clauses[0] = replace(divided.clauses[0], after=after)
         whole.clauses += divided.clauses
         if divided.failed is not None:
             whole.failed = divided.failed
@@ -49,20 +64,73 @@ def read_all(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided 
     return whole
 
 
-def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[int, int]]:
+def _may_go_on(question: Clause, clause: Clause) -> bool:
+    """Whether what has no verb may belong to the scenario that was supposed: "… a highway. 10 potholes"."""
+    said = [each["do"] for action in question.actions for each in action.get("change", ())]
+    return clause.filled.frame.verbless and not asks(clause.actions) and said[-1:] == [SCENARIO]
+
+
+def _move_supposed(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided | None:
+    """The question about another move in the past, which is a frame of its own; None for another sentence."""
+    if HAD_MOVED not in lattice.concepts:
+        return None
+    tried = divide(start, end, frozenset())
+    asks = [value for clause in tried.clauses for value in clause.actions]
+    if tried.failed is not None or len(asks) != 1 or "move" not in asks[0] or asks[0].get("about") != WHAT_IF:
+        return None
+    return tried
+
+
+def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[str, int, int]]:
     """Where the sentences of a text begin and end, if one of them is a what-if question; else all as one.
 
-    A phrase is taught to the end of the text, full stops and all.
+    With each is the separator before it. A phrase is taught to the end of the text, full stops and all.
     """
-    if WHAT_IF not in lattice.concepts:
-        return [(start, end)]
-    stops = (e for e in lattice.between(start, end) if e.sense.concept == SEPARATOR and e.sense.value == STOP)
-    cuts = [start, *sorted(edge.end for edge in stops)]
-    parts = [(a, b) for a, b in zip(cuts, [*cuts[1:], end], strict=True) if a < b]
-    begun = [at for at in (_past_glue(lattice, *part) for part in parts) if at < end]
-    taught = any(_longest(lattice, at, TEACH) for at in begun)
-    asked = any(_longest(lattice, at, WHAT_IF) for at in begun)
-    return parts if asked and not taught else [(start, end)]
+    whole = [(PAUSE, start, end)]
+    if lattice.concepts.isdisjoint((WHAT_IF, IF)):
+        return whole
+    found: list[tuple[str, int, int]] = []
+    after, begin, conditional = PAUSE, start, _opens(lattice, start, end)
+    if _teaches(lattice, start, end):
+        return whole
+    for edge in sorted(lattice.between(start, end), key=lambda each: (each.start, -each.end)):
+        if edge.concept != SEPARATOR or edge.start < begin:
+            continue
+        if _teaches(lattice, edge.end, end):
+            return whole
+        opens = _opens(lattice, edge.end, end)
+        if opens or (conditional and edge.sense.value == STOP):
+            if begin < edge.start:
+                found.append((after, begin, edge.start))
+            after, begin, conditional = str(edge.sense.value), edge.end, opens
+    return [*found, (after, begin, end)] if begin < end else found
+
+
+def _teaches(lattice: Lattice, at: int, end: int) -> bool:
+    """Whether words that teach a phrase begin at a token."""
+    at = _past_glue(lattice, at, end)
+    return at < end and _longest(lattice, at, TEACH) is not None
+
+
+def _opens(lattice: Lattice, at: int, end: int) -> bool:
+    """Whether a what-if question begins at a token."""
+    at = _past_glue(lattice, at, end)
+    if at >= end:
+        return False
+    if _longest(lattice, at, WHAT_IF) is not None:
+        return True
+    if (asked := _longest(lattice, at, THEN_WHAT)) is not None:
+        after = _past_marks(lattice, asked.end, end)
+        return after < end and _longest(lattice, after, IF) is not None
+    if _longest(lattice, at, IF) is None:
+        return False
+    asked = (_longest(lattice, later, THEN_WHAT) for later in range(at + 1, end))
+    return any(each is not None and _ends_part(lattice, each.end, end) for each in asked)
+
+
+def _ends_part(lattice: Lattice, at: int, end: int) -> bool:
+    """Whether nothing follows, or a separator."""
+    return _past_marks(lattice, at, end) >= end or any(e.concept == SEPARATOR for e in lattice.edges[at])
 
 
 def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) -> Clause | Fragment | None:
@@ -75,14 +143,29 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
     if (taught := _longest(lattice, start, TEACH)) is not None:
         return _taught(lattice, taught, end, divide)
     failed: Fragment | None = None
-    for first, last in _conditions(lattice, start, end):
-        found = _inside(divide, first, last)
-        if isinstance(found, Fragment):
-            failed = failed or found
-        else:
-            question = {"do": "ask", "about": "what_if", "change": found}
-            return Clause(begin, end, Filled(_FRAME, []), [question])
-    return failed
+    cut: tuple[int, list[dict[str, Any]]] | None = None
+    for first, last, stop in _conditions(lattice, start, end):
+        divided = divide(first, last, CONDITIONAL)
+        found = divided.failed or _actions(divided, first, last, NO_CHANGE)
+        if not isinstance(found, Fragment):
+            return _what_if(begin, stop, found)
+        failed = failed or found
+        if last == end and cut is None:
+            cut = _before_question(divided)
+    return failed if cut is None else _what_if(begin, *cut)
+
+
+def _what_if(start: int, end: int, change: list[dict[str, Any]]) -> Clause:
+    return Clause(start, end, Filled(_FRAME, []), [{"do": "ask", "about": "what_if", "change": change}])
+
+
+def _before_question(divided: Divided) -> tuple[int, list[dict[str, Any]]] | None:
+    """Where a question after a condition begins, which is a sentence of its own, and the condition."""
+    for at, clause in enumerate(divided.clauses):
+        if at and asks(clause.actions):
+            found = _actions(Divided(divided.clauses[:at]), clause.start, clause.end, NO_CHANGE)
+            return None if isinstance(found, Fragment) else (clause.start, found)
+    return None
 
 
 def _past_glue(lattice: Lattice, at: int, end: int) -> int:
@@ -103,8 +186,11 @@ def _longest(lattice: Lattice, at: int, concept: str) -> Edge | None:
     return max(found, key=lambda edge: edge.end, default=None)
 
 
-def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, int]]:
-    """Where the condition of a what-if question may be, whichever end the question itself stands at."""
+def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, int, int]]:
+    """Where the condition of a what-if question may be, and where the question ends.
+
+    The question itself may stand at either end.
+    """
     opened = sorted(
         (e for e in lattice.edges[start] if e.sense.concept in (WHAT_IF, IF)), key=lambda e: -e.end
     )
@@ -113,18 +199,18 @@ def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, i
             at = _past_marks(lattice, edge.end, end)
             opening = _longest(lattice, at, IF) if at < end else None
             if opening is not None and opening.end < end:
-                yield opening.end, end
+                yield opening.end, end, end
     for edge in opened:
         if edge.sense.concept == WHAT_IF and edge.end < end:
-            yield edge.end, end
+            yield edge.end, end, end
         for at in range(edge.end + 1, end):
             asked = _longest(lattice, at, THEN_WHAT)
-            if asked is not None and _only_marks(lattice, asked.end, end):
-                yield edge.end, at
-
-
-def _only_marks(lattice: Lattice, at: int, end: int) -> bool:
-    return _past_marks(lattice, at, end) >= end
+            if asked is None:
+                continue
+            if _past_marks(lattice, asked.end, end) >= end:
+                yield edge.end, at, end
+            elif _ends_part(lattice, asked.end, end):
+                yield edge.end, at, asked.end
 
 
 def _past_marks(lattice: Lattice, at: int, end: int) -> int:
@@ -135,12 +221,6 @@ def _past_marks(lattice: Lattice, at: int, end: int) -> int:
             return at
         at = max(passed)
     return at
-
-
-def _inside(divide: Divide, start: int, end: int) -> list[dict[str, Any]] | Fragment:
-    """The actions of a condition, or the part that nothing fits."""
-    divided = divide(start, end, CONDITIONAL)
-    return divided.failed or _actions(divided, start, end, NO_CHANGE)
 
 
 def _actions(

@@ -44,10 +44,18 @@ class Topic:
     """ids of all that was added by someone and is still there, the latest last: "the last pothole" """
     actions: tuple[Action, ...] = ()
     """what was last done or asked: "again" """
+    request: tuple[Action, ...] = ()
+    """the same as it was said: a goal or a style, not what it came to"""
+    asked: tuple[Action, ...] = ()
+    """the last question: "and now?" asks it again"""
     said: str = ""
     """how that was said; empty for typed actions"""
     steps: int = 0
     """how many steps of undo take it back; a correction of a correction takes back both"""
+    changed: tuple[Action, ...] = ()
+    """the last change that was made, whatever was asked since: "put it back" undoes it"""
+    changed_steps: int = 0
+    """how many steps of undo take it back; 0 where there is none"""
     steps_before: int = 0
     """the same of the change before the last one; 0 where there is none"""
     away: tuple[int, ...] = ()
@@ -56,6 +64,8 @@ class Topic:
     """ids that the last request was about: "the next one" is after them"""
     listed: tuple[str, ...] = ()
     """ids in the order in which they were last told or added: "the second one" """
+    batch: tuple[str, ...] = ()
+    """those of them that one request added or one answer told, the last that did"""
     gone: frozenset[str] = frozenset()
     """those of them that are no longer on the road"""
     undone: bool = False
@@ -64,6 +74,8 @@ class Topic:
     """what "two more" is more of"""
     offered: tuple[Action, ...] = ()
     """what choosing each would do, where the last answer listed settings or styles: "the second one" """
+    asked_kind: str | None = None
+    """the kind of thing that the pending question is about: "remove five" after "too many cars" """
     tick: int | None = None
     """the tick that the last question or its answer named: "since then" """
     others: int = 0
@@ -75,6 +87,8 @@ class Topic:
     phrases: Phrases = field(default_factory=Phrases)
     names: frozenset[str] = frozenset()
     """of moments that were saved, in small letters: "go back to monday" is one of them, or something else"""
+    columns: int = 8
+    """how many lanes the road has: "the two right lanes" """
 
 
 ALONE = Topic()

@@ -50,14 +50,19 @@ class Typos:
 
     def repair(self, word: str) -> str | None:
         """The one word meant by an unknown word, or None."""
-        if len(word) < self._rules.shortest_written or len(word) > 30 or word in self._rules.never:
-            return None
-        near = {other for shape in _shapes(word) for other in self._by_shape.get(shape, ())}
-        near = {other for other in near if within_one_edit(word, other)}
-        if not near or near & self._numbers:
+        near = self.near(word)
+        if not near:
             return None
         best = min(near, key=lambda other: (other[-1] != word[-1], len(other) != len(word), other))
         return best if all(other == best or self._same(best, other) for other in near) else None
+
+    def near(self, word: str) -> list[str]:
+        """The words that an unknown word may be, in the order of the alphabet; none where a number is near."""
+        if len(word) < self._rules.shortest_written or len(word) > 30 or word in self._rules.never:
+            return []
+        near = {other for shape in _shapes(word) for other in self._by_shape.get(shape, ())}
+        near = {other for other in near if within_one_edit(word, other)}
+        return [] if near & self._numbers else sorted(near)
 
 
 def _shapes(word: str) -> set[str]:

@@ -12,7 +12,7 @@ from starlette.types import Scope
 
 from service.http.headers import first_header
 from service.http.middleware.cross_site import READING
-from service.problems import CrossSite, Unauthorized
+from service.problems import CrossSite
 from service.security.cross_site import is_cross_site, same_site
 from service.security.guard import Guard, client_of
 
@@ -20,11 +20,10 @@ _GETTING = frozenset(("GET", "HEAD"))
 
 
 def check_access(scope: Scope, guard: Guard) -> None:
-    """Raises `CrossSite` or `Unauthorized`."""
+    """Raises `CrossSite`, `Unauthorized` or `TooManyWrongKeys`."""
     if scope["method"] in _GETTING:
         _check_cross_site_get(scope)
-    if not guard.key.admits(first_header(scope, b"authorization")):
-        raise Unauthorized
+    guard.admit(client_of(scope), first_header(scope, b"authorization"))
 
 
 def count_change(scope: Scope, guard: Guard) -> None:
@@ -48,7 +47,7 @@ def document(method: str, guarded: bool, operation: dict[str, Any], add_problems
     """Adds access control to the documentation of a call; `guarded` is whether its route checks access."""
     slugs = ["foreign-host"]
     if guarded:
-        slugs.append("key-needed")
+        slugs += ["key-needed", "too-many-wrong-keys"]
         operation["security"] = [{"key": []}, {}]
     if method != "get" or guarded:
         slugs.append("cross-site")

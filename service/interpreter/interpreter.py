@@ -94,7 +94,8 @@ class Interpreter:
         phrases = self.aliases.phrases(code)
         if session is None:
             return Topic(phrases=phrases)
-        return session.conversation.topic(session.run.world, phrases, session.undo_stack.bookmarks)
+        topic = session.conversation.topic(session.run.world, phrases, session.undo_stack.bookmarks)
+        return topic if session.pending is None else replace(topic, asked_kind=session.pending.kind)
 
     def sentence_for(self, config: Config, code: str = DEFAULT_LANGUAGE) -> str | None:
         """The sentence that makes such a road; None where nothing that can be said in the language does."""
@@ -186,7 +187,13 @@ class Interpreter:
 
         What was said drops the pending question, unless it asks for that.
         """
-        outcome = await self._execute(session, utterance, dry_run, preconditions)
+        try:
+            outcome = await self._execute(session, utterance, dry_run, preconditions)
+        except Invalid:
+            if not dry_run and utterance.text is not None:
+                session.pending = None
+                session.conversation.record_refused(utterance)
+            raise
         if not dry_run and _drops_pending(utterance, session.pending):
             session.pending = None
         return outcome
@@ -289,7 +296,7 @@ def _drops_pending(utterance: Utterance, pending: PendingQuestion | None) -> boo
     chosen = pending is not None and any(choice.actions == actions for choice in pending.choices)
     if chosen or any(isinstance(action, Drop) for action in actions):
         return True
-    asks = all(isinstance(action, Ask) and action.about == "pending" for action in actions)
+    asks = all(isinstance(action, Ask) and action.about in ("pending", "options") for action in actions)
     return utterance.text is not None and not asks
 
 

@@ -60,6 +60,7 @@ class Advices:
         distances = {Choice.STEER: distance_steered, Choice.BRAKE_AND_STEER: distance_both}
         distance = distance_most if key == "brake_stops" else distances.get(advice.choice, distance)
         parts = {
+            "brake": self._say("braking", "hard" if firmness(advice) > 1 else "gently"),
             "it": self._say("hazards", advice.hazard, "the"),
             "speed": self._speed(advice),
             "distance": distance,
@@ -86,7 +87,7 @@ class Advices:
         if chosen.choice is Choice.BRAKE and _late(advice):
             return "brake_late"
         stops = chosen.choice is Choice.BRAKE and chosen.ending is Ending.STOPS
-        if stops and advice.figures.stopping_most_m <= advice.distance_m:
+        if stops and chosen.sure and advice.figures.stopping_most_m <= advice.distance_m:
             return "brake_stops"
         if CLOSE[0] < chosen.chance < CLOSE[1]:
             return f"{chosen.choice}_close"
@@ -154,6 +155,13 @@ class Advices:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("advice", *keys, **parts)
+
+
+def firmness(advice: Advice) -> int:
+    """How much is asked of the driver: 0 keep going, 1 brake, 2 brake hard or steer, or both."""
+    if advice.choice is Choice.KEEP:
+        return 0
+    return 1 if advice.choice is Choice.BRAKE and advice.chosen.sure else 2
 
 
 def _late(advice: Advice) -> bool:

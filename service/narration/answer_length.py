@@ -7,6 +7,13 @@ from typing import Final, NamedTuple
 
 MOST_WORDS: Final = 60
 """Words of an answer; what matters least is left out above that. The facts beside it have all."""
+FEW_WORDS: Final = 25
+"""The same where it was asked for shortly."""
+
+
+def most_words(length: str | None) -> int:
+    """Words of an answer of a length that was asked for: `shorter`, or any other."""
+    return FEW_WORDS if length == "shorter" else MOST_WORDS
 
 
 class Part(NamedTuple):

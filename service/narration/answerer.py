@@ -8,7 +8,7 @@ from service.actions import Ask
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.state import SimState
-from sim.types import Move, Outcome
+from sim.types import Kind, Move, Outcome
 
 Json = dict[str, Any]
 
@@ -42,8 +42,18 @@ def question(sayings: Sayings, ask: Ask) -> str:
         key = "why_any"
     if key in ("scene", "metrics") and (ask.kind or ask.metric):
         key += "_one"
+    if ask.about == "what_if" and ask.move is not None:
+        key = "what_if_move"
+    if ask.instead is not None:
+        key = "why_instead" if ask.move is not None else "why_any_instead"
     if ask.what is not None:
-        key = f"history_{ask.what}"
+        key = f"{ask.about}_{ask.what}"
+        if ask.planner is not None:
+            key += "_of"
+    elif ask.how is not None:
+        key = f"detail_{ask.how}"
+    elif ask.about == "pattern":
+        key = "pattern" if ask.move is None else "pattern_one"
     elif ask.tick is not None:
         key += "_at"
     if ask.about == "options" and ask.parameter:
@@ -57,11 +67,14 @@ def question(sayings: Sayings, ask: Ask) -> str:
         "questions",
         key,
         do=do,
+        instead="" if ask.instead is None else sayings.move(ask.instead, "do"),
+        doing="" if ask.move is None else sayings.move(ask.move, "doing"),
         tick=ask.tick,
         things=things,
         metric=metric,
         setting=named,
         until=ask.until,
+        planner="" if ask.planner is None else sayings.planner(ask.planner),
         term="" if ask.term is None else sayings.say("glossary", "names", ask.term),
     )
 
@@ -77,6 +90,9 @@ def not_so(sayings: Sayings, code: str, facts: dict[str, object]) -> str:
         parts["asked"] = sayings.move(wanted, "do")
     if isinstance(outcome := parts.get("outcome"), Outcome):
         parts["outcome"] = sayings.say("answers", "outcomes", outcome)
+    if isinstance(kind := parts.get("kind"), Kind):
+        parts["a"] = sayings.say("words", "a", kind)
     if isinstance(fault := parts.get("fault"), str):
         parts["fault"] = sayings.fault(fault)
-    return sayings.say("answers", code, **parts)
+    file = "past" if code in sayings.words("past") else "answers"
+    return sayings.say(file, code, **parts)

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from service.narration.advice import Advices
-from service.narration.answerer import Answerer, Json
+from service.narration.ahead import Outlooks
+from service.narration.answerer import Answerer, Json, plain
+from service.narration.blame import Blames
 from service.narration.confidence import Confidences
+from service.narration.details import Details
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
 from service.narration.history import History
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
+from service.narration.moments import Moments, Patterns
 from service.narration.next import Next
+from service.narration.others import Others
+from service.narration.planners import Planners
+from service.narration.quiz import Quizzes
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.settings import Settings
@@ -18,7 +27,7 @@ from service.narration.status import Help, Status
 from service.narration.talk import OpenQuestion, RecentChanges
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
-from service.sessions.facts import Advised, Answerable
+from service.sessions.facts import Advised, Answerable, Asked
 
 
 class Answers:
@@ -27,6 +36,9 @@ class Answers:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._advices = Advices(sayings)
+        self._sayings = sayings
+        self._details = Details(sayings, self.answer)
+        self._moments = Moments(sayings)
         whys, settings = Whys(sayings), Settings(sayings)
         self._by_question: dict[str, Answerer] = {
             "why": whys,
@@ -46,10 +58,43 @@ class Answers:
             "term": Glossary(sayings),
             "history": History(sayings),
             "styles": Styles(sayings),
+            "detail": self._details,
+            "other": Others(sayings),
+            "pattern": Patterns(sayings),
+            "outlook": Outlooks(sayings),
+            "blame": Blames(sayings),
+            "planners": Planners(sayings),
+            "quiz": Quizzes(sayings),
         }
 
     def answer(self, asked: Answerable) -> Json:
         """The `Answer` of the interface."""
         if isinstance(asked, Advised):
             return self._advices.answer(asked)
-        return self._by_question[asked.ask.about].answer(asked)
+        asked = _at_its_tick(asked)
+        ask = asked.ask
+        if ask.ticks is not None and ask.about != "history":
+            now = asked.timeline.tick
+            text = self._sayings.say("history", "not_so_far_back", now=now)
+            return plain(self._sayings, replace(ask, ticks=None), asked.timeline.state, text)
+        if asked.supposes == "told" and (sure := self._details.sure(asked)) is not None:
+            return sure
+        if ask.about == "history" and ask.what in ("riskiest", "similar"):
+            return self._moments.answer(asked)
+        return self._by_question[ask.about].answer(asked)
+
+
+def _at_its_tick(asked: Asked) -> Asked:
+    """The question with the tick it is about: so many ticks ago, or that of the answer before."""
+    ask, now = asked.ask, asked.timeline.tick
+    if ask.seconds is not None:
+        ago = max(1, round(ask.seconds / asked.timeline.state.config.step_seconds))
+        ask = replace(ask, seconds=None, ticks=ago)
+        asked = replace(asked, ask=ask)
+    if ask.ticks is not None and ask.about != "history" and ask.ticks <= now:
+        return replace(asked, ask=replace(ask, tick=now - ask.ticks, ticks=None))
+    if ask.about == "what_if" and ask.move is not None and ask.tick is None:
+        before = asked.talk.explained
+        if before is not None and before.tick is not None and before.tick < now:
+            return replace(asked, ask=replace(ask, tick=before.tick))
+    return asked

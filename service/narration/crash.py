@@ -36,10 +36,15 @@ class Crashes:
         try:
             crash = why_crashed(asked.timeline, tick)
         except QuestionError as error:
-            told = plain(self._sayings, asked.ask, asked.timeline.state, self._not_so(error))
+            told = plain(self._sayings, asked.ask, asked.timeline.state, self.not_so(error))
         else:
             texts = self._options.texts(crash.explanation.decision)
-            told = plain(self._sayings, asked.ask, asked.timeline.state, self.text(crash))
+            told = plain(
+                self._sayings,
+                asked.ask,
+                asked.timeline.state,
+                self.text(crash, detailed=asked.length == "longer"),
+            )
             told |= crash_json(crash, texts)
         return told | {"question": self._say("question" if tick is None else "question_at", tick=tick)}
 
@@ -175,7 +180,8 @@ class Crashes:
     def _seconds(self, ticks: int, crash: Crash) -> str:
         return self._sayings.number(ticks * crash.explanation.moment.config.step_seconds)
 
-    def _not_so(self, error: QuestionError) -> str:
+    def not_so(self, error: QuestionError) -> str:
+        """The sentence where there was no such crash."""
         if error.code not in _ITS_OWN:
             return not_so(self._sayings, error.code, error.facts)
         if error.code == "no_crash":

@@ -25,12 +25,16 @@ class Explained:
         """`sayings`: the language's."""
         self._sayings = sayings
 
-    def text(self, explanation: Explanation, *, detailed: bool = False) -> str:
-        """Why, or why not, in a few sentences; `detailed` leaves nothing out for the sake of brevity."""
+    def text(self, explanation: Explanation, *, detailed: bool = False, most: int = MOST_WORDS) -> str:
+        """Why, or why not, in a few sentences of so many words; `detailed` leaves nothing out for brevity."""
         telling = _Telling(self._sayings, explanation, detailed=detailed)
         parts = telling.why() if explanation.about == "why" else telling.why_not()
-        told = within([*parts, *telling.imagined(parts)], None if detailed else MOST_WORDS)
+        told = within([*parts, *telling.imagined(parts)], None if detailed else most)
         return told
+
+    def would(self, explanation: Explanation) -> str:
+        """What the foil of an explanation would have led to; empty where that is not known."""
+        return _Telling(self._sayings, explanation, detailed=False).would()
 
 
 class _Telling:
@@ -97,7 +101,7 @@ class _Telling:
         if option.cell is None:
             reason = self._reason(option)
             return [Part(0, self._say("not_off_road", tick=decision.tick, do=do, reason=reason))]
-        return [Part(0, self._not_made(option, do)), Part(2, self._would()), *self._proofs.of_change()]
+        return [Part(0, self._not_made(option, do)), Part(2, self.would()), *self._proofs.of_change()]
 
     def _short(self, reasons: str, hindered: list[Option] | None = None) -> str:
         """The reasons; where they are very many words, those of the first moves."""
@@ -178,7 +182,7 @@ class _Telling:
         instead = self._sayings.move(decision.move, "name")
         return self._say(key, tick=decision.tick, do=do, more=self._worth(more), instead=instead)
 
-    def _would(self) -> str:
+    def would(self) -> str:
         """What the foil would have led to."""
         stakes = self._explanation.stakes
         if stakes is None or stakes.would is None:

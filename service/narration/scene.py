@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 from service.contract.encode.scene import misperception_json, scene_json
@@ -37,7 +38,13 @@ class Scenes:
         scene = describe_percept(sense(run)[0], run.config)
         wrong = misperception(run).of(kind)
         counting = asked.supposes == "number"
-        text = " ".join([self.text(scene, run, kind, counting=counting), *self._not_as_seen(wrong, run)])
+        if asked.ask.count is not None and kind is not None:
+            told = _Told(self._sayings, run, scene).nearest(kind)
+        else:
+            told = self.text(scene, run, kind, counting=counting)
+        text = " ".join([told, *self._not_as_seen(wrong, run)])
+        if asked.ask.count is not None and kind is not None:
+            scene = nearest_alone(scene, kind)
         found = scene_json(scene, kind, run.config.cell_m, run.config.step_seconds)
         return plain(self._sayings, asked.ask, run, text) | found | misperception_json(wrong)
 
@@ -60,6 +67,17 @@ class Scenes:
         if kind is None:
             return told.everything()
         return told.number(kind) if counting else told.kind(kind)
+
+
+def nearest_alone(scene: Scene, kind: Kind) -> Scene:
+    """The scene with the nearest thing of a kind alone, by lanes and rows."""
+    things = sorted(scene.of(kind), key=_far)
+    return replace(scene, seen=tuple(things[:1]))
+
+
+def _far(thing: Detection) -> tuple[int, int, bool]:
+    """How far a thing is, as where the nearest is taken away: in cells, across or along the road."""
+    return max(abs(thing.lanes), abs(thing.rows)), abs(thing.lanes), thing.rows < 0
 
 
 class _Told:
@@ -100,6 +118,13 @@ class _Told:
                 )
             )
         return " ".join(told)
+
+    def nearest(self, kind: Kind) -> str:
+        """The nearest of a kind alone."""
+        things = nearest_alone(self._scene, kind).seen
+        if not things:
+            return self._say("none", things=self._noun(kind, 2))
+        return " ".join([self._say("closest", thing=self._near(things[0])), *self._met(things)])
 
     def number(self, kind: Kind) -> str:
         """How many there are first; then those ahead, the nearest first."""

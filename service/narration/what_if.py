@@ -7,6 +7,7 @@ from service.actions.table import imagined_actions
 from service.contract.encode.forecast import what_if_json
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds, likely
+from service.narration.foils import Foils
 from service.narration.naming import Naming
 from service.narration.rearranged import supposed_rearranged
 from service.narration.sayings import Sayings
@@ -50,10 +51,13 @@ class WhatIfs:
         """`sayings`: the language's."""
         self._sayings = sayings
         self._conditions = Conditions(sayings)
+        self._foils = Foils(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`. What cannot be done is answered too, and nothing is run for it."""
         ask, timeline = asked.ask, asked.timeline
+        if ask.move is not None:
+            return self._foils.supposed(asked)
         change = ask.change or ()
         actions = imagined_actions(change)
         if not actions:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from service.contract.encode.explanation import explanation_json
+from service.narration.answer_length import most_words
 from service.narration.answerer import Json, not_so, plain
 from service.narration.crash import Crashes
 from service.narration.explanation import Explained
+from service.narration.foils import Foils
 from service.narration.options import Options
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
@@ -22,6 +24,7 @@ class Whys:
         self._explained = Explained(sayings)
         self._crashes = Crashes(sayings)
         self._options = Options(sayings)
+        self._foils = Foils(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`. A question about what is not so is answered too, without causes.
@@ -29,6 +32,8 @@ class Whys:
         "Why did you do that?" of what ended in a crash is about the crash.
         """
         ask, timeline = asked.ask, asked.timeline
+        if ask.instead is not None:
+            return self._foils.contrasted(asked)
         if ask.about == "why" and ask.move is None and self._about_a_crash(asked):
             return self._crashes.answer(asked)
         try:
@@ -38,7 +43,9 @@ class Whys:
                 explanation = why(timeline, ask.tick, ask.move)
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
-        text = self._explained.text(explanation)
+        text = self._explained.text(
+            explanation, detailed=asked.length == "longer", most=most_words(asked.length)
+        )
         return plain(self._sayings, ask, timeline.state, text) | explanation_json(
             explanation, self._options.texts(explanation.decision)
         )

@@ -1,4 +1,4 @@
-"""Rate limit of changes: a token bucket for each client."""
+"""Rate limits by client: a token bucket for each."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MAX_CLIENTS = 10_000
 
 
 class RateLimiter:
-    """Lets `per_minute` changes of each client through; None lets all through."""
+    """Lets `per_minute` of each client through; None lets all through."""
 
     def __init__(self, per_minute: int | None, now: Callable[[], float] = time.monotonic) -> None:
         self._per_minute = per_minute
@@ -21,7 +21,7 @@ class RateLimiter:
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
 
     def take(self, client: str) -> int:
-        """0 if one more change may pass, which is counted; otherwise the whole seconds until one may."""
+        """0 if one more may pass, which is counted; otherwise the whole seconds until one may."""
         if self._per_minute is None:
             return 0
         bucket = self._buckets.get(client)
@@ -31,3 +31,8 @@ class RateLimiter:
                 self._buckets.popitem(last=False)
         self._buckets.move_to_end(client)
         return bucket.take()
+
+    def wait_s(self, client: str) -> int:
+        """Whole seconds until one more of a client may pass; counts nothing."""
+        bucket = self._buckets.get(client)
+        return 0 if bucket is None else bucket.wait_s()

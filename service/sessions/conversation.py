@@ -17,7 +17,8 @@ from typing import Any, TypeAlias
 from pydantic import TypeAdapter
 
 from service import actions as contract
-from service.actions import Action, Drop, Redo, Undo
+from service.actions import Action, Ask, Chat, Drop, Redo, Undo
+from service.actions.table import traits_of
 from service.grammar.topic import Phrases, Topic
 from service.sessions.facts import (
     Answerable,
@@ -27,8 +28,8 @@ from service.sessions.facts import (
     performed_actions,
     spread_facts,
 )
-from service.sessions.referred import changes_number, named, options_told, tick_told
-from service.sessions.utterance import Outcome
+from service.sessions.referred import changes_number, explained, named, options_told, tick_told
+from service.sessions.utterance import Outcome, Utterance
 from sim.actions import (
     Add,
     Copy,
@@ -65,10 +66,24 @@ class Conversation:
         self._latest_steps: tuple[int, ...] = ()
         """steps of undo of the latest two changes"""
         self._tick: int | None = None
+        self._explained: Ask | None = None
         self._offered: tuple[Action, ...] = ()
         self._away: tuple[int, ...] = ()
         """how many things each of them took off the road or moved"""
         self._listed: tuple[str, ...] = ()
+        self._batch: tuple[str, ...] = ()
+        """those of them that were told or added last, by one request"""
+        self._told = False
+        """whether an answer told them"""
+        self._taken: tuple[str, ...] = ()
+        """ids of what the latest change of things took off the road: after an undo they are "it" """
+        self._said_actions: tuple[Action, ...] = ()
+        """the last request as it was said: a goal, not what it came to"""
+        self._changed: tuple[Action, ...] = ()
+        self._changed_steps = 0
+        """the last request that was no question, and its steps of undo"""
+        self._asked: tuple[Action, ...] = ()
+        """the last question"""
         self._undone = False
         self._kind: str | None = None
         self._removed = False
@@ -76,6 +91,11 @@ class Conversation:
         self._episode: Episode | None = None
         self._durable: Conversation | None = None
         """the memory without unstored talk, where that differs"""
+
+    @property
+    def explained(self) -> Ask | None:
+        """The question that was answered last, with the tick that its answer is about."""
+        return self._explained
 
     @property
     def durable(self) -> Conversation:
@@ -95,25 +115,46 @@ class Conversation:
             self._durable.record(outcome, step=step)
         actions = performed_actions(outcome.utterance.actions, outcome.facts)
         facts = tuple(spread_facts(outcome.facts))
+        if all(isinstance(action, Chat) for action in actions):
+            return
         self._record_request(outcome.utterance.text, actions, facts, step=step)
+        if self._actions == actions:
+            self._said_actions = outcome.utterance.actions
         changing = [fact for fact in facts if isinstance(fact, Applied | Undone)]
         if changing:
             last = changing[-1]
             self._undone = isinstance(last, Undone) and not last.again
+            if isinstance(last, Undone) and self._taken:
+                self._things = self._taken  # what was taken away is there again, or gone again
         elif any(not isinstance(fact, Answerable) for fact in facts):
             self._undone = False  # time has passed, or stands still: "again" is about that
         amounts = [fact for fact in facts if isinstance(fact, Applied) and _moves_things(fact)]
         if amounts:
+            if any(isinstance(fact, Undone) for fact in facts):
+                self._listed = tuple(name for name in self._listed if name not in self._batch)
             self._before = self._things
-            self._things = ()  # "them" are all that the utterance added, not what its last part did
+            self._things = (
+                self._taken
+            ) = ()  # "them" are all that the utterance added, not what its last part did
             if any(fact.added for fact in amounts):
-                self._listed = ()
+                self._begin_batch()
         elif any(isinstance(fact, Applied) and changes_number(fact.action) for fact in facts):
             self._kind = None  # "one more" is one more lane
         for fact in amounts:
             self._record_change(fact)
+        if outcome.answer is not None or any(not isinstance(fact, Answerable) for fact in facts):
+            self._explained = None if outcome.answer is None else explained(outcome.answer, actions)
+        if len(self._batch) > 1:
+            self._listed = self._batch  # things added together are counted by themselves
         self._tick = None if outcome.answer is None else tick_told(outcome.answer, actions)
-        self._offered = () if outcome.answer is None else options_told(outcome.answer, actions)
+        chosen = outcome.answer is None and outcome.utterance.actions[0] in self._offered
+        self._offered = (
+            self._offered
+            if chosen
+            else ()
+            if outcome.answer is None
+            else options_told(outcome.answer, actions)
+        )
         if outcome.answer is not None:
             self._record_answer(outcome.answer, facts)
 
@@ -125,18 +166,37 @@ class Conversation:
         own = actions[1:] if begins_with_undo else actions
         if any(isinstance(action, Undo | Redo | Drop) for action in own):
             if not all(isinstance(action, Drop) for action in own):
-                self._steps = 0
+                self._steps = self._changed_steps = 0
                 self._latest_steps = self._away = ()
             return
         taken_back = sum(fact.steps for fact in facts[:1] if isinstance(fact, Undone))
         self._actions, self._steps = own, 1 + taken_back if step else 0
+        self._said_actions = ()
         self._said = "" if begins_with_undo else text or ""
+        if all(traits_of(action).is_question for action in own):
+            self._asked = own
+        if step:
+            self._changed, self._changed_steps = own, self._steps
         if step:
             kept = () if taken_back else self._latest_steps
             self._latest_steps = (*kept, self._steps)[-2:]
             changed = [fact for fact in facts if isinstance(fact, Applied)]
             away = sum(len(fact.removed) + len(fact.moved) for fact in changed)
             self._away = (*(() if taken_back else self._away), away)[-2:]
+
+    def record_refused(self, utterance: Utterance) -> None:
+        """Record a request that could not be done: "no, radar" is meant instead, and nothing is undone."""
+        if any(isinstance(action, Undo | Redo | Drop | Chat) for action in utterance.actions):
+            return
+        self._durable = self._durable or self.durable
+        self._actions = self._said_actions = utterance.actions
+        self._said, self._steps, self._offered, self._tick = utterance.text or "", 0, (), None
+        self._undone = False
+
+    def _begin_batch(self) -> None:
+        """What was added one after another is counted on; what an answer told begins a list of its own."""
+        kept = () if self._told else self._listed
+        self._listed, self._batch, self._told = kept[-MAX_REMEMBERED:], (), False
 
     def _record_change(self, fact: Applied) -> None:
         action = fact.action
@@ -146,11 +206,16 @@ class Conversation:
         self._set_episode(fact.state.world)
         self._things += tuple(thing.id for thing in fact.added)
         self._things += tuple(each.thing.id for each in fact.moved)
-        self._listed += tuple(thing.id for thing in fact.added)
+        added = tuple(thing.id for thing in fact.added)
+        self._listed = (*(name for name in self._listed if name not in added), *added)
+        self._batch += added
         for thing in fact.added:
             if thing.id in self._added:
                 self._added.remove(thing.id)  # undone, and given again
             self._added.append(thing.id)
+        if isinstance(action, Remove):
+            self._taken += tuple(thing.id for thing in fact.removed)
+            self._things += tuple(name for name in self._before if kind_of(name) == action.kind)
         self._removed = isinstance(action, Remove) or (bool(fact.removed) and not fact.added)
         if not isinstance(action, Swap) and action.kind != "everything":
             self._kind = action.by if isinstance(action, Replace) else action.kind
@@ -160,10 +225,14 @@ class Conversation:
         told = tuple(cause["id"] for cause in answer.get("causes", ()) if cause.get("id"))
         seen = tuple(thing["id"] for thing in answer.get("seen", ()))
         asked = [fact for fact in facts if isinstance(fact, Asked)]
+        if asked and seen and asked[-1].ask.count == 1 and seen[0] in self._listed:
+            self._before, self._things = self._things, seen  # one of those that were told before
+            return
         if not asked or not (told or seen):
             return
         self._set_episode(asked[-1].timeline.state.world)
-        self._listed = told or seen
+        self._listed = self._batch = told or seen
+        self._told = True
         if told or asked[-1].ask.kind is not None:  # all that is seen is too much for "them"
             self._before, self._things = self._things, told or seen
 
@@ -176,7 +245,7 @@ class Conversation:
     def _forget_things(self) -> None:
         self._things = ()
         self._before = ()
-        self._listed = ()
+        self._listed = self._batch = ()
         self._added.clear()
 
     def to_json(self) -> dict[str, Any]:
@@ -188,9 +257,14 @@ class Conversation:
             "actions": contract.dump(self._actions),
             "said": self._said,
             "steps": self._steps,
+            "changed": contract.dump(self._changed),
+            "changed_steps": self._changed_steps,
             "latest_steps": [*self._latest_steps],
             "away": [*self._away],
             "listed": [*self._listed],
+            "batch": [*self._batch],
+            "told": self._told,
+            "taken": [*self._taken],
             "undone": self._undone,
             "kind": self._kind,
             "removed": self._removed,
@@ -206,6 +280,10 @@ class Conversation:
         new._added.extend(values["added"])
         new._actions = contract.load(values["actions"])
         new._said, new._steps, new._listed = values["said"], values["steps"], tuple(values["listed"])
+        new._changed = contract.load(values["changed"]) if values.get("changed") else ()
+        new._changed_steps = values.get("changed_steps", 0)
+        new._batch, new._told = tuple(values.get("batch", ())), bool(values.get("told"))
+        new._taken = tuple(values.get("taken", ()))
         new._latest_steps = tuple(values.get("latest_steps", ()))
         new._away = tuple(values.get("away", ()))
         new._undone, new._removed, new._kind = values["undone"], values["removed"], values["kind"]
@@ -224,12 +302,17 @@ class Conversation:
             before=tuple(name for name in self._before if name in there and name not in self._things),
             added=tuple(name for name in self._added if name in there),
             actions=self._actions,
+            request=self._said_actions or self._actions,
+            asked=self._asked,
             said=self._said,
             steps=self._steps,
+            changed=self._changed,
+            changed_steps=self._changed_steps,
             steps_before=self._latest_steps[0] if len(self._latest_steps) > 1 else 0,
             away=self._away,
             named=named(self._actions),
             listed=self._listed if there else (),
+            batch=self._batch if there else (),
             gone=frozenset(name for name in self._listed if name not in there),
             undone=self._undone,
             kind=self._kind,
@@ -240,6 +323,7 @@ class Conversation:
             where=self._where,
             phrases=phrases,
             names=frozenset(name.casefold() for name in names),
+            columns=world.road.columns,
         )
 
 

@@ -65,6 +65,8 @@ class Asked:
     """the clock's, which no timeline has"""
     talk: Talk = NO_TALK
     """the conversation as it was, for questions about it"""
+    length: str | None = None
+    """`shorter` or `longer`, where an answer is wanted so"""
 
 
 @dataclass(frozen=True, slots=True)

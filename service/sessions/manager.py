@@ -34,7 +34,7 @@ from service.sessions.persistence.replay import ReplayError
 from service.sessions.persistence.restore import restore
 from service.sessions.persistence.snapshot_scheduler import SnapshotScheduler
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
-from service.sessions.scheduler.eviction import Evictor, IdleTimes
+from service.sessions.scheduler.eviction import Evictor, IdleTimes, RoomMaker
 from service.sessions.scheduler.offload import REPLAY_S, with_time_limit
 from service.sessions.services import SessionServices
 from service.sessions.session import Session
@@ -104,7 +104,7 @@ class SessionManager:
         Raises `GenerationError`, `TooManySessions`, `NotSaved`, or `RecordingMismatch` or `Invalid` for a
         recording that cannot be replayed.
         """
-        self._check_capacity()
+        await self._make_room()
         self._creating += 1
         try:
             record = SessionRecord(
@@ -150,7 +150,7 @@ class SessionManager:
         if tick > now:
             message = refusals(parent.language).session("tick_not_come", now=now)
             raise Invalid(f"{field}: {message}.", errors=[FieldProblem(field, message)])
-        self._check_capacity()
+        await self._make_room()
         self._creating += 1
         try:
             session, entries = await build_fork(parent, tick, actions, name, paused, self._services)
@@ -180,6 +180,7 @@ class SessionManager:
     async def _start(self, session: Session) -> None:
         """Make a stored session live, and wait until it is known whether its vehicle can arrive."""
         self._live[session.id] = session
+        self.idle_times.touch(session.id)
         self._stored_count += 1
         session.set_paused(session.paused)
         session.reachability.start_road(session.run)
@@ -293,7 +294,7 @@ class SessionManager:
             raise NotRestorable from error
         if record is None:
             raise UnknownSession
-        self._check_capacity()
+        await self._make_room()
         try:
             entries = await self._services.store.entries(session_id)
             snapshot = await self.snapshots.find(session_id)
@@ -319,9 +320,16 @@ class SessionManager:
         session.reachability.start_road(session.run)
         return session
 
-    def _check_capacity(self) -> None:
-        most = self._services.settings.max_sessions
-        if len(self._live) + self._creating >= most:
-            raise TooManySessions(
-                f"{most} sessions are live, which is the limit here. Delete one and try again."
-            )
+    async def _make_room(self) -> None:
+        """Evict the sessions idle longest if the limit is reached. Raises `TooManySessions`."""
+        settings = self._services.settings
+        most = settings.max_sessions
+        while (over := len(self._live) + self._creating - most + 1) > 0:
+            room = RoomMaker(self._live.values(), self.idle_times, settings.sleep_after_s)
+            leaving = room.longest_idle(over)
+            try:
+                evicted = await self.evict(leaving, room.may_leave) if leaving else 0
+            except StoreError as error:
+                raise NotSaved from error
+            if not evicted:
+                raise TooManySessions(most, room.wait_s())

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from service import actions as contract
-from service.actions import Action
+from service.actions import Action, Ask
 from service.sessions.log import LogEvent
 
 
@@ -34,6 +34,13 @@ class PendingQuestion:
     """who understood the utterance so far: the grammar, or a language model"""
     language: str
 
+    @property
+    def kind(self) -> str | None:
+        """The one kind of thing that all choices are about."""
+        kinds = [{getattr(action, "kind", None) for action in each.actions} for each in self.choices]
+        named = kinds[0] if kinds and all(each == kinds[0] for each in kinds) else set()
+        return named.pop() if len(named) == 1 else None
+
     def to_json(self) -> dict[str, Any]:
         """The question as JSON values, the form in which clients see it."""
         choices = [{"text": each.text, "actions": contract.dump(each.actions)} for each in self.choices]
@@ -47,6 +54,8 @@ class Talk:
     pending: PendingQuestion | None = None
     changes: Callable[[], tuple[LogEvent, ...]] = tuple
     """the log lines of what was done, the latest last"""
+    explained: Ask | None = None
+    """the question that was answered last, with the tick that it turned out to be about"""
 
 
 NO_TALK = Talk()

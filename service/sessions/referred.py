@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, cast, get_args
 
-from service.actions import Action, Ask
+from service import actions as contract
+from service.actions import Action, Ask, Which
 from service.actions.goals import Style
 from service.styles import styles
 from sim.actions import Adjust, Parameter, Set
@@ -22,7 +24,34 @@ def tick_told(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> int | N
     asked = {action.tick for action in actions if isinstance(action, Ask) and action.tick is not None}
     call = (answer.get("history") or answer).get("closest_call")
     told = asked or ({call["tick"]} if isinstance(call, Mapping) else set())
+    if not told and (about := explained(answer, actions)) is not None and about.tick is not None:
+        return about.tick
     return told.pop() if len(told) == 1 else None
+
+
+_EXPLAIN = ("why", "why_not", "what_if", "other")
+
+
+def explained(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> Ask | None:
+    """The question that was answered, with the tick that its answer turned out to be about."""
+    if isinstance(again := answer.get("asked"), Mapping):
+        (loaded,) = contract.load([again])
+        asks = [loaded] if isinstance(loaded, Ask) else []
+    else:
+        asks = [action for action in actions if isinstance(action, Ask)]
+    if len(asks) != 1 or asks[0].about in ("detail", "pending", "help"):
+        return None
+    (ask,) = asks
+    if ask.about in _EXPLAIN and ask.change is None and answer.get("evidence") is not None:
+        which = answer.get("mover", {}).get("id")
+        named = ask if which is None else replace(ask, which=Which(id=which))
+        return replace(named, tick=answer["tick"], ticks=None)
+    if ask.about == "history" and ask.what in ("riskiest", "similar", "closest_call"):
+        tick = answer.get("moment")
+        call = answer.get("closest_call")
+        tick = call["tick"] if tick is None and isinstance(call, Mapping) else tick
+        return ask if tick is None else Ask(about="why", tick=tick)
+    return ask
 
 
 def options_told(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> tuple[Action, ...]:

@@ -249,7 +249,7 @@ class Session:
     def begin_transaction(self, language: str | None = None) -> Transaction:
         """A copy to try actions on; `language`: the one in which they are refused (the session's)."""
         language = language or self.language
-        talk = Talk(self.pending, self.feed.changes)
+        talk = Talk(self.pending, self.feed.changes, self.conversation.explained)
         return Transaction(self.timeline, self.paused, self.undo_stack, self.playback_speed, language, talk)
 
     @asynccontextmanager

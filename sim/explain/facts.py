@@ -130,7 +130,7 @@ class Explanation:
     to be in the way"""
     chain: tuple[Link, ...] = ()
     """of `why`: what stood in the way because of something else"""
-    untried: int = 0
+    untried: tuple[str, ...] = ()
     """of `why`: things seen that were not tried by themselves, and might flip the decision too"""
     searched: int = 0
     """of `why_not`: edits up to which every change was tried for one that leads to the foil"""

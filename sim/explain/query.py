@@ -15,7 +15,7 @@ from sim.types import MOVES, Move, Outcome
 LOOK_BACK_TICKS = 1_000
 """How far back a move that is asked about is looked for."""
 
-_SAID_OF = {
+SAID_OF = {
     Move.LEFT: (Move.LEFT, Move.FORWARD_LEFT),
     Move.RIGHT: (Move.RIGHT, Move.FORWARD_RIGHT),
 }
@@ -37,12 +37,12 @@ def why(
     """
     check_ego(timeline.state, ego)
     if tick is None and move is not None:
-        state, decision = _latest(timeline, _SAID_OF.get(move, (move,)), ego)
+        state, decision = _latest(timeline, SAID_OF.get(move, (move,)), ego)
         if decision is None:
             raise QuestionError("never_made", move=move, ticks=min(timeline.tick, LOOK_BACK_TICKS))
         return explain_why(state, decision, timeline.announced(state, ego), effort)
-    state, decision = _decision_at(timeline, tick, ego)
-    if move is not None and decision.move not in _SAID_OF.get(move, (move,)):
+    state, decision = decision_meant(timeline, tick, ego)
+    if move is not None and decision.move not in SAID_OF.get(move, (move,)):
         raise QuestionError("not_that_move", asked=move, made=decision.move, tick=decision.tick)
     return explain_why(state, decision, timeline.announced(state, ego), effort)
 
@@ -60,13 +60,39 @@ def why_not(
     `effort`: how hard a change that leads to the move is looked for.
     """
     check_ego(timeline.state, ego)
-    state, decision = _decision_at(timeline, tick, ego)
+    state, decision = decision_meant(timeline, tick, ego)
     if decision.move is move:
         raise QuestionError("was_made", move=move, tick=decision.tick)
     return explain_why_not(state, decision, move, timeline.announced(state, ego), effort)
 
 
-def _decision_at(timeline: Timeline, tick: int | None, ego: str | None) -> tuple[SimState, Decision]:
+def contrast(
+    timeline: Timeline, move: Move | None, instead: Move, tick: int | None = None, *, ego: str | None = None
+) -> Explanation:
+    """Why an ego made one move instead of another: why not the other, where the one was made.
+
+    That is at a tick, when the move was last made, or at the latest decision. Of a diagonal move the other
+    side is the other diagonal. Raises `QuestionError`.
+    """
+    check_ego(timeline.state, ego)
+    if tick is None and move is not None:
+        state, latest = _latest(timeline, SAID_OF.get(move, (move,)), ego)
+        if latest is None:
+            raise QuestionError("never_made", move=move, ticks=min(timeline.tick, LOOK_BACK_TICKS))
+        decision = latest
+    else:
+        state, decision = decision_meant(timeline, tick, ego)
+        if move is not None and decision.move not in SAID_OF.get(move, (move,)):
+            raise QuestionError("not_that_move", asked=move, made=decision.move, tick=decision.tick)
+    if decision.move.offset[1] and move is not None and move is not decision.move:
+        instead = SAID_OF.get(instead, (instead,))[-1]
+    if decision.move is instead:
+        raise QuestionError("was_made", move=instead, tick=decision.tick)
+    return explain_why_not(state, decision, instead, timeline.announced(state, ego))
+
+
+def decision_meant(timeline: Timeline, tick: int | None, ego: str | None) -> tuple[SimState, Decision]:
+    """The decision of an ego at a tick, or its latest, and the state before it. Raises `QuestionError`."""
     if tick is None:
         state, found = _latest(timeline, MOVES, ego)
         if found is None:

@@ -38,7 +38,7 @@ class Rest:
     groups: dict[str, tuple[str, ...]]
     """by name, what must go together for the decision to flip: of names that are not in the sufficient set"""
     chain: tuple[Link, ...]
-    untried: int
+    untried: tuple[str, ...]
     """things that may have a part and were not tried by themselves"""
 
     @staticmethod
@@ -73,7 +73,7 @@ class Rest:
                     groups[name] = pair
                 elif name not in groups and (link := _behind(rerun, name, option, by)) is not None:
                     chain.append(link)
-        return Rest(groups, tuple(chain), further.untried)
+        return Rest(groups, tuple(chain), tuple(further.untried))
 
 
 class Flipping:
@@ -90,7 +90,7 @@ class Flipping:
         self._rerun = rerun
         self._runs = MOST_RUNS
         self._beside_movers = _beside_movers(rerun.percept)
-        self.untried = 0
+        self.untried: list[str] = []
         """things that were not looked at, for want of runs"""
 
     def flips(self, name: str) -> bool:
@@ -98,7 +98,7 @@ class Flipping:
         try:
             return self._rerun.without([name]) is not self._rerun.decision.move
         except WorkSpentError:
-            self.untried += 1
+            self.untried.append(name)
             return False
 
     def among(self, names: Sequence[str]) -> list[str]:
@@ -106,16 +106,16 @@ class Flipping:
         if not names:
             return []
         if self._runs <= 0 or self._rerun.decision.measure is Measure.RANK:
-            self.untried += len(names)
+            self.untried += names
             return []
         self._runs -= 1
         try:
             without = self._rerun.decision_without(names)
         except WorkSpentError:
-            self.untried += len(names)
+            self.untried += names
             return []
         if not self._another_is_as_good(without):
-            self.untried += len(self._beside_movers.intersection(names))
+            self.untried += [name for name in names if name in self._beside_movers]
             return []
         if len(names) == 1:
             return [names[0]] if without.move is not self._rerun.decision.move else []

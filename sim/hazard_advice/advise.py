@@ -45,15 +45,19 @@ def advise(hazard: Kind, distance_m: float, speed_kmh: float, weather: Weather =
 
 
 def _best(hazard: Kind, found: tuple[Prospect, ...]) -> Prospect:
-    """Keeps on where that is safe by the speed alone; else the choice with the least expected harm.
+    """Keeps on where that is safe by the speed alone, brakes where that is sure; else does the least harm.
 
-    Chances count in whole hundredths, so that the chance that is stated never falls with more room or less
-    speed merely because a gentler choice was taken. Among equals the least speed of harm counts, then the
-    effort.
+    Braking is sure in a region that only shrinks with less room or more speed, so that the advice never
+    becomes gentler there. Chances count in whole hundredths, so that the chance that is stated never falls
+    with more room or less speed merely because a gentler choice was taken. Among equals the least speed of
+    harm counts, then the effort.
     """
     keep, *others = found
     if hazard is Kind.POTHOLE and keep.chance >= SURE_OF_KEEPING:
         return keep
+    brake = others[0]
+    if brake.sure:
+        return brake
     if hazard is Kind.PEDESTRIAN:
         return min(others, key=lambda each: (round(expected_harm(each), 3), -round(each.chance, 2)))
     return min(others, key=lambda each: (-round(each.chance, 2), round(each.harm_kmh)))

@@ -50,6 +50,11 @@ class Prospect:
     death: float = 0.0
     """of a person on foot: mean over the samples of the published risk of death at the speed of impact"""
 
+    @property
+    def sure(self) -> bool:
+        """Whether the chance, in whole hundredths, is 100 %."""
+        return round(self.chance, 2) == 1.0
+
 
 @dataclass(frozen=True, slots=True)
 class Figures:

@@ -75,6 +75,15 @@ def test_every_question_has_traits_and_an_answerer() -> None:
     assert set(QUESTIONS) == set(get_args(QuestionName)) == set(Answers(Sayings.load())._by_question)
 
 
+NAMING: dict[str, tuple[str, ...]] = {
+    "history": ("between", "tick", "until"),
+    "outlook": ("safe", "move"),
+    "blame": ("fault", "tick"),
+    "planners": ("here", "planners"),
+}
+"""Of a question of several about the same, one, and what it names."""
+
+
 @pytest.mark.parametrize("about", QUESTIONS)
 def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
     values: dict[str, object] = {
@@ -83,18 +92,33 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         "change": [{"do": "pause"}],
         "kind": "pothole",
         "metric": "steps",
-        "count": 2,
+        "count": 1,
         "parameter": "courtesy",
         "value": 0.5,
         "term": "tick",
-        "what": "between",
+        "what": "why" if about == "other" else "between",
         "until": 5,
         "ticks": 3,
+        "seconds": 1.5,
+        "instead": "right",
+        "how": "shorter",
+        "which": {"kind": "vehicle", "nearest": True},
+        "planners": ["astar"],
+        "planner": "astar",
     }
+    if about in NAMING:
+        values |= {"what": NAMING[about][0]}
     traits = QUESTIONS[about]
-    named = {key: values[key] for key in traits.may}
-    if about == "history":  # ticks are counted back, or named
+    named = {key: values[key] for key in NAMING.get(about, traits.may) if key in values} | (
+        {"what": values["what"]} if "what" in traits.may else {}
+    )
+    if "ticks" in named:  # ticks are counted back, or named
         del named["ticks"]
+    named.pop("seconds", None)
+    if about == "scene":  # of one kind, or the nearest of it
+        del named["count"]
+    if about == "what_if":  # a move in the past, or a change
+        del named["move"]
     (asked,) = load([{"do": "ask", "about": about, **named}])
     assert isinstance(asked, Ask)
     assert traits_of(asked).is_question
@@ -102,8 +126,31 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         with pytest.raises(ValueError, match=f"'{key}' does not belong"):
             load([{"do": "ask", "about": about, **{name: values[name] for name in (*traits.must, key)}}])
     for key in traits.must:
+        others = {name: values[name] for name in traits.must if name != key}
         with pytest.raises(ValueError, match=f"needs '{key}'"):
-            load([{"do": "ask", "about": about}])
+            load([{"do": "ask", "about": about, **others}])
+
+
+@pytest.mark.parametrize(
+    ("keys", "fits"),
+    [
+        ({"about": "what_if", "move": "left"}, True),
+        ({"about": "what_if"}, False),
+        ({"about": "what_if", "move": "left", "change": [{"do": "pause"}]}, False),
+        ({"about": "why", "tick": 3, "ticks": 3}, False),
+        ({"about": "why", "ticks": 3, "seconds": 3.0}, False),
+        ({"about": "other", "what": "why", "which": {"nearest": True}}, False),
+        ({"about": "other", "what": "summary", "which": {"kind": "vehicle"}}, False),
+        ({"about": "other", "what": "going", "which": {"id": "vehicle-1"}}, True),
+    ],
+)
+def test_what_contradicts_itself_is_no_question(keys: dict[str, object], fits: bool) -> None:
+    values = [{"do": "ask", **keys}]
+    if fits:
+        assert load(values)
+    else:
+        with pytest.raises(ValueError, match=r"say|does not belong|has no"):
+            load(values)
 
 
 @pytest.mark.parametrize(
@@ -118,14 +165,25 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         ({"what": "between", "tick": 3, "until": 3}, True),
         ({"what": "between", "tick": 3, "until": 2}, False),
         ({"what": "seen", "until": 2}, False),
+        ({"what": "riskiest"}, True),
+        ({"what": "riskiest", "tick": 3}, False),
+        ({"what": "similar", "count": 3, "tick": 3}, True),
+        ({"what": "similar", "ticks": 3}, False),
+        ({"what": "safe", "about": "outlook", "move": "left"}, True),
+        ({"what": "safe", "about": "outlook"}, False),
+        ({"what": "stuck", "about": "outlook", "move": "left"}, False),
+        ({"what": "character", "about": "planners", "planner": "astar"}, True),
+        ({"what": "character", "about": "planners", "planners": ["astar"]}, False),
+        ({"what": "own", "about": "planners", "tick": 3}, True),
+        ({"what": "summary", "about": "blame"}, False),
     ],
 )
-def test_questions_about_the_past_name_the_ticks_they_need(keys: dict[str, object], fits: bool) -> None:
+def test_questions_name_what_they_need_and_nothing_more(keys: dict[str, object], fits: bool) -> None:
     values = [{"do": "ask", "about": "history", **keys}]
     if fits:
         load(values)
         return
-    with pytest.raises(ValueError, match=r"names|ends after"):
+    with pytest.raises(ValueError, match=r"names|ends after|does not belong|say one of"):
         load(values)
 
 

@@ -15,10 +15,10 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from service.app import create_app
-from service.problems import QuotaExceeded
+from service.problems import QuotaExceeded, TooManyWrongKeys
 from service.security.api_key import Key
 from service.security.cross_site import same_site
-from service.security.guard import exposure_problem
+from service.security.guard import WRONG_KEYS_PER_MINUTE, Guard, exposure_problem
 from service.security.hosts import Hosts, is_loopback
 from service.security.quotas import Quotas
 from service.security.rate_limit import MAX_CLIENTS, RateLimiter
@@ -65,6 +65,29 @@ async def test_no_key_and_wrong_keys_get_nothing(headers: dict[str, Any]) -> Non
         assert (await client.get(SESSIONS, headers=BEARER)).json()["items"] == []
 
 
+async def test_who_tries_keys_is_slowed_and_others_are_not() -> None:
+    async with asked(api_key=KEY) as client:
+        for _ in range(WRONG_KEYS_PER_MINUTE):
+            wrong = await client.get(SESSIONS, headers={"Authorization": "Bearer wrong"})
+            assert_refused(wrong, 401, "key-needed")
+        slowed = await client.get(SESSIONS, headers=BEARER)
+        assert_refused(slowed, 429, "too-many-wrong-keys")
+        assert 1 <= int(slowed.headers["retry-after"]) <= 2
+    guard = Guard(Settings(api_key=SecretStr(KEY)))
+    for _ in range(WRONG_KEYS_PER_MINUTE):
+        assert not guard.matches("10.0.0.1", "wrong")
+    with pytest.raises(TooManyWrongKeys):
+        guard.matches("10.0.0.1", KEY)
+    assert guard.matches("10.0.0.2", KEY)
+
+
+async def test_asking_without_a_key_is_no_try() -> None:
+    async with asked(api_key=KEY) as client:
+        for _ in range(WRONG_KEYS_PER_MINUTE + 5):
+            assert_refused(await client.get(SESSIONS), 401, "key-needed")
+        assert (await client.get(SESSIONS, headers=BEARER)).status_code == 200
+
+
 async def test_the_key_lets_in_and_what_tells_nothing_is_open() -> None:
     async with asked(api_key=KEY) as client:
         assert (await client.post(SESSIONS, json={}, headers=BEARER)).status_code == 201
@@ -97,6 +120,8 @@ def test_no_key_is_every_key_and_an_empty_one_is_none() -> None:
         ("road.example", None, True),
         ("127.0.0.1.example", None, True),
         ("0.0.0.0", "", True),
+        ("0.0.0.0", KEY[:15], True),
+        ("127.0.0.1", "x", False),
         ("0.0.0.0", KEY, False),
     ],
 )

@@ -134,6 +134,45 @@ async def test_the_limit_of_sessions() -> None:
     await service.session()
 
 
+async def test_a_full_service_lets_paused_sessions_leave_the_longest_idle_first() -> None:
+    service = Service(max_sessions=3)
+    running = await service.session()
+    first, second = await service.session(paused=True), await service.session(paused=True)
+    await do(first, ADD)
+    expected = first.run
+    await service.manager.get(first.id)  # now `second` is idle longest
+    third = await service.session(paused=True)
+    assert set(service.manager.live_sessions) == {running.id, first.id, third.id}
+    assert (await service.manager.get(second.id)).id == second.id  # and `first` has left for it
+    assert first.id not in service.manager.live_sessions
+    assert (await service.manager.get(first.id)).run == expected
+    assert service.manager.live_count == 3
+    assert running.id in service.manager.live_sessions
+
+
+async def test_a_watched_session_does_not_leave_a_full_service() -> None:
+    service = Service(max_sessions=1)
+    watched = await service.session(paused=True)
+    subscriber = watched.subscribers.subscribe()
+    with pytest.raises(TooManySessions) as refused:
+        await service.session()
+    watched.subscribers.unsubscribe(subscriber)
+    assert 1 <= int(refused.value.headers["Retry-After"]) <= 600
+    await service.session()
+
+
+async def test_a_running_session_leaves_a_full_service_when_nobody_has_asked_for_long() -> None:
+    service = Service(max_sessions=1, sleep_after_s=60.0)
+    now_s = 1_000.0
+    service.manager.idle_times.now = lambda: now_s
+    await service.session()
+    with pytest.raises(TooManySessions) as refused:
+        await service.session()
+    assert refused.value.headers["Retry-After"] == "60"
+    now_s += 60
+    await service.session()
+
+
 async def test_a_recording_replays_and_goes_on_alike() -> None:
     service = Service()
     session = await service.session()

@@ -273,6 +273,8 @@ class Maker:
                 "options",
                 "term",
                 "history",
+                "other",
+                "pattern",
             )
         )
         action: dict[str, Any] = {"do": "ask", "about": about}
@@ -280,8 +282,28 @@ class Maker:
             case "why" | "why_not":
                 if about == "why_not" or self.chance(0.5):
                     action["move"] = self.pick(MOVES)
-                if self.chance(0.5):
-                    action["tick"] = self.random.randint(0, 5000)
+                if about == "why" and self.chance(0.3):
+                    action["instead"] = self.pick(MOVES)
+                action |= self.when()
+            case "what_if" if self.chance(0.3):
+                action["move"] = self.pick(MOVES)
+                action |= self.when()
+            case "pattern" if self.chance(0.8):
+                action["move"] = self.pick(MOVES)
+            case "other":
+                action["what"] = self.pick(("why", "going"))
+                action["which"] = self.pick(
+                    (
+                        {"kind": "vehicle", "nearest": True},
+                        {"kind": "pedestrian", "side": "left"},
+                        {"kind": "vehicle", "side": "ahead"},
+                        {"kind": "vehicle", "lane": self.random.randint(1, 8)},
+                    )
+                )
+                if action["what"] == "why":
+                    if self.chance(0.6):
+                        action["move"] = self.pick(("left", "right", "stay"))
+                    action |= self.when()
             case "what_if":
                 change = [self.action(questions=False) for _ in range(self.random.randint(1, 3))]
                 action["change"] = change
@@ -305,16 +327,32 @@ class Maker:
             return self.pick(CHOICES[parameter])
         return self.random.randint(0, 10**6) if parameter in WHOLE else self.number()
 
+    def when(self) -> dict[str, Any]:
+        """The tick that a question is about, one so long ago, or none."""
+        match self.random.randint(0, 4):
+            case 0 | 1:
+                return {"tick": self.random.randint(0, 5000)}
+            case 2:
+                return {"ticks": self.random.choice((1, self.random.randint(2, 999)))}
+            case 3:
+                return {"seconds": float(self.random.choice((1, 2.5, self.random.randint(2, 99))))}
+        return {}
+
     def past(self) -> dict[str, Any]:
         """What of the past is asked about."""
         tick = self.random.randint(0, 5000)
-        what = self.pick(("closest_call", "summary", "since", "between", "seen"))
+        what = self.pick(("closest_call", "summary", "since", "between", "seen", "riskiest", "similar"))
         match what:
             case "between":
                 return {"what": what, "tick": tick, "until": tick + self.random.randint(0, 99)}
             case "since" | "seen":
                 ticks = {"ticks": self.random.choice((1, self.random.randint(2, 999)))}
                 return {"what": what, **(ticks if self.chance(0.5) else {"tick": tick})}
+            case "riskiest" if self.chance(0.5):
+                return {"what": what, "tick": tick, "until": tick + self.random.randint(0, 99)}
+            case "similar":
+                count = {} if self.chance(0.4) else {"count": self.random.randint(1, 9)}
+                return {"what": what, **count, **({} if self.chance(0.5) else {"tick": tick})}
         return {"what": what}
 
     def evaluation(self) -> dict[str, Any]:

@@ -26,6 +26,11 @@ def explanation_json(explanation: Explanation, texts: Sequence[str]) -> Json:
         "move": decision.move,
         "foil": explanation.foil,
         "causes": [_cause_json(cause, explanation) for cause in explanation.causes],
+        "chain": [
+            {"blocker": link.blocker, "by": link.by, "move": link.move, "behind": link.behind}
+            for link in explanation.chain
+        ],
+        "shown": _shown_json(explanation),
         "alternatives": options_json(decision, texts),
         "verified": {
             "necessary": verified.necessary,
@@ -33,8 +38,12 @@ def explanation_json(explanation: Explanation, texts: Sequence[str]) -> Json:
             "minimal": verified.minimal,
         },
         "counterfactual": flips[0] if flips else None,
-        "stakes": None if explanation.stakes is None else _stakes_json(explanation.stakes),
-        "evidence": {"counterfactuals": flips, "reruns": explanation.reruns},
+        "stakes": None if explanation.stakes is None else stakes_json(explanation.stakes),
+        "evidence": {
+            "counterfactuals": flips,
+            "reruns": explanation.reruns,
+            **({"untried": explanation.untried} if explanation.untried else {}),
+        },
     }
 
 
@@ -90,6 +99,19 @@ def _cause_json(cause: Cause, explanation: Explanation) -> Json:
     }
 
 
+def _shown_json(explanation: Explanation) -> Json:
+    """What to point at while it is read, where it stood: the causes, what blocked the foil, the chain."""
+    ids = [cause.id for cause in (*explanation.causes, *explanation.also) if cause.cell is not None]
+    ids += [name for link in explanation.chain for name in (link.blocker, link.by)]
+    if explanation.foil is not None:
+        ids += explanation.decision.option(explanation.foil).causes
+    world = explanation.moment.world
+    told = {cause.id: cause.cell for cause in (*explanation.causes, *explanation.also)}
+    there = {name: thing.cell for name in ids if (thing := world.find(name)) is not None}
+    cells = [cell for name in dict.fromkeys(ids) if (cell := told.get(name) or there.get(name)) is not None]
+    return {"ids": list(dict.fromkeys(ids)), "cells": cells}
+
+
 def _distance(cell: tuple[int, int], explanation: Explanation) -> float:
     """Metres from the vehicle that decided, lanes and rows alike."""
     moment = explanation.moment
@@ -107,7 +129,8 @@ def _flip_json(flip: Counterfactual, tick: int) -> Json:
     return told | ({"undetected": flip.undetected} if flip.undetected else {})
 
 
-def _stakes_json(stakes: Alternatives) -> Json:
+def stakes_json(stakes: Alternatives) -> Json:
+    """A move that was not made, beside the one that was."""
     return {
         "foil": stakes.foil,
         "would": None if stakes.would is None else _future_json(stakes.would),

@@ -15,6 +15,7 @@ from typing import Any, Literal
 from service.actions import dump
 from service.grammar.composition import done_by
 from service.grammar.engine import Language
+from service.grammar.free_text import ORDER
 from service.grammar.fuzz.sayings import Saying
 from service.grammar.lattice import GLUE
 from service.grammar.parse_types import Ambiguous, Parse, Understood
@@ -66,7 +67,25 @@ def verdict(language: Language, pair: Joined) -> Verdict:
     one, other, text = pair
     if _is_idiom(language, one, text):
         return "declared"
-    return judge(one, other, language.parse(text))
+    parsed = language.parse(text)
+    found = judge(one, other, parsed)
+    if (
+        found == "changed"
+        and isinstance(parsed, Understood)
+        and _is_ordered(language, pair, dump(parsed.actions))
+    ):
+        return "declared"
+    return found
+
+
+def _is_ordered(language: Language, pair: Joined, got: Actions) -> bool:
+    """Whether a word of order in one of them ("first") puts a request before those of the other."""
+    wanted = [*pair[0].actions, *pair[1].actions]
+    said = (each for saying in pair[:2] for each in language.concepts(saying.text))
+    ordered = any(each.startswith(ORDER) for each in said)
+    return (
+        ordered and len(got) == len(wanted) and all(got.count(each) == wanted.count(each) for each in wanted)
+    )
 
 
 def _is_idiom(language: Language, one: Saying, text: str) -> bool:
@@ -84,7 +103,7 @@ def judge(one: Saying, other: Saying, parsed: Parse) -> Verdict:
     wanted = [*one.actions, *other.actions]
     if got == wanted or got == _without_emphasis(one.actions, other.actions):
         return "same"
-    if _leans(one, other, got) or _takes_in(wanted, got) or _goes_on(one, got):
+    if _leans(one, other, got) or _takes_in(wanted, got) or _goes_on(one, other, got):
         return "declared"
     return "lost" if len(got) < len(wanted) else "changed"
 
@@ -96,14 +115,24 @@ def _without_emphasis(one: Actions, other: Actions) -> list[Mapping[str, Any]]:
 
 def _leans(one: Saying, other: Saying, got: Actions) -> bool:
     """Whether what has no verb got that of the first: "remove a cone and two cars"."""
-    if other.has_verb or list(got[: len(one.actions)]) != list(one.actions):
+    if (other.has_verb and not _asks_for_any(other)) or list(got[: len(one.actions)]) != list(one.actions):
         return False
     rest = got[len(one.actions) :]
     verbs = {action["do"] for action in one.actions}
     return len(rest) == len(other.actions) and all(
-        said["do"] in verbs and _about(said) == _about(own)
+        said["do"] in verbs and (_about(said) == _about(own) or _is_any(said, own))
         for said, own in zip(rest, other.actions, strict=True)
     )
+
+
+def _asks_for_any(saying: Saying) -> bool:
+    """Whether it may be a question after what things there are."""
+    return all(action["do"] == "ask" and "kind" in action for action in saying.actions)
+
+
+def _is_any(said: Mapping[str, Any], own: Mapping[str, Any]) -> bool:
+    """Whether "any cars", which asks alone, got a verb: "remove the cones and any cars"."""
+    return own["do"] == "ask" and said.get("count") == "all" and said.get("kind") == own.get("kind")
 
 
 def _about(action: Mapping[str, Any]) -> dict[str, Any]:
@@ -115,8 +144,18 @@ def _takes_in(wanted: Actions, got: Actions) -> bool:
     return len(got) < len(wanted) and done_by(wanted, got)
 
 
-def _goes_on(one: Saying, got: Actions) -> bool:
+def _goes_on(one: Saying, other: Saying, got: Actions) -> bool:
     """Whether the second part is in the condition, or the taught phrase, that the first ends with."""
     *before, last = one.actions
     inner = next((key for key in ("change", "meaning") if key in last), None)
-    return inner is not None and list(got[:-1]) == before and last[inner] != got[-1].get(inner, last[inner])
+    at = len(before)
+    if "move" in last and len(got) == at + 1 and "change" in got[at]:
+        return (
+            list(got[:at]) == before
+        )  # "what if you had gone left and …": the move is part of what is supposed
+    if inner is None or list(got[:at]) != before or len(got) <= at:
+        return False
+    inside, own = got[at].get(inner, last[inner]), last[inner]
+    if len(got) == at + 1:
+        return bool(inside != own)
+    return bool(inside[: len(own)] == own and [*inside[len(own) :], *got[at + 1 :]] == list(other.actions))

@@ -12,6 +12,7 @@ from service.grammar.corpus import sentences
 from service.grammar.data import TEST_SUFFIX
 from service.grammar.engine import Language
 from service.grammar.fragments import INTERJECTION
+from service.grammar.order import ORDER
 from service.grammar.parse_types import Understood
 from service.grammar.span_patterns import REPAIR
 from service.resources import prompts_folder
@@ -19,6 +20,9 @@ from service.yaml_files import read_yaml
 
 _VERBS = ("v.", "want", "there_be", "q.")
 """Beginnings of the concepts of words that say what is to be done or known."""
+
+_ASIDE = "q.tell"
+"""That of words beside a question, some of which stand in requests too: "please", "at"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,9 +60,9 @@ class Sayings:
     def joinable(self) -> tuple[Saying, ...]:
         """Those that say nothing about the sentence beside them: no correction, no call ("autopilot, …").
 
-        Small talk is none of them either: beside a request it is passed over.
+        Words of order are about it. Small talk is none of them either: beside a request it is passed over.
         """
-        aside = (REPAIR, INTERJECTION)
+        aside = (REPAIR, INTERJECTION, ORDER)
         return tuple(
             saying
             for saying in self.all
@@ -72,7 +76,8 @@ class Sayings:
         if not isinstance(parsed, Understood) or parsed.corrections:
             return None
         asks = all(traits_of(action).is_question for action in parsed.actions)
-        verb = any(each.startswith(_VERBS) for each in self._language.concepts(text))
+        said = self._language.concepts(text) - {_ASIDE}
+        verb = any(each.startswith(_VERBS) for each in said)
         return Saying(text, tuple(dump(parsed.actions)), asks, verb)
 
     def _of_frames(self) -> list[str]:

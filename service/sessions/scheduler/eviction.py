@@ -3,11 +3,14 @@
 A session is wholly stored, so evicting it means storing its tick, and restoring it is what happens after a
 restart: the same ids, sequence and digest, paused. A session is evicted when it has no subscriber, was not
 asked for in a while, and is paused (a setting evicts running ones too). Transient lines of the log are lost.
+
+Where the limit of live sessions is reached, room is made at once: see `RoomMaker`.
 """
 
 from __future__ import annotations
 
 import asyncio
+import math
 import time
 from collections.abc import Awaitable, Callable, Iterable
 
@@ -81,3 +84,32 @@ class Evictor:
                 await self.evict_idle()
             except StoreError as error:
                 _LOG.warning("no session could be put to sleep", error=str(error))
+
+
+class RoomMaker:
+    """Chooses the sessions that leave memory where the limit of live sessions is reached.
+
+    A paused session without subscribers may leave at once, since it comes back as it was; a running one only
+    when nobody has asked for it for `after_s`, since it comes back paused.
+    """
+
+    def __init__(self, sessions: Iterable[Session], idleness: IdleTimes, after_s: float) -> None:
+        self._idleness = idleness
+        self._after_s = after_s
+        self._idle_s = {each: idleness.idle_s(each) for each in sessions}
+
+    def may_leave(self, session: Session) -> bool:
+        """Whether nobody uses the session, now."""
+        if len(session.subscribers) or session.busy:
+            return False
+        return session.paused or self._idleness.idle_s(session) >= self._after_s
+
+    def longest_idle(self, count: int) -> list[Session]:
+        """At most so many sessions that may leave, the longest idle first."""
+        leaving = [session for session in self._idle_s if self.may_leave(session)]
+        return sorted(leaving, key=self._idle_s.__getitem__, reverse=True)[:count]
+
+    def wait_s(self) -> int:
+        """Whole seconds after which one of the sessions may leave if nobody asks for it until then."""
+        shortest = min((self._after_s - idle_s for idle_s in self._idle_s.values()), default=0.0)
+        return max(1, math.ceil(shortest))

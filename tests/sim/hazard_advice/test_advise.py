@@ -7,14 +7,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from service.narration.advice import firmness
 from sim.hazard_advice import Choice, Ending, NoAdviceError, advise, samples
 from sim.hazard_advice.advise import expected_harm
 from sim.hazard_advice.chances import interval
 from sim.hazard_advice.parameters import DISTANCE, FRICTION, LATERAL, REACTION, WIDTH, parameters
 from sim.hazard_advice.physics import braking_left, death_risk
-from sim.types import Kind
+from sim.types import PLACEABLE, Kind
 from tests.support.slow_motion import Case, unharmed
 from tools.advice_calibration import AIM, calibration_error, outcomes, questions, table
+from tools.advice_grid import DISTANCES_M, SPEEDS_KMH, grid_pairs, random_pairs
 
 KINDS = st.sampled_from(Kind)
 WEATHERS = st.sampled_from(tuple(FRICTION))
@@ -77,9 +79,6 @@ def test_more_room_never_lowers_a_chance(
         assert wide.chance >= close.chance
 
 
-EFFORT = {Choice.KEEP: 0, Choice.BRAKE: 1, Choice.STEER: 1, Choice.BRAKE_AND_STEER: 1}
-
-
 @settings(max_examples=150, deadline=None)
 @given(KINDS, st.floats(0.5, 300), st.floats(3, 200), WEATHERS, st.floats(1, 1.6), st.floats(1, 1.6))
 def test_nearer_or_faster_is_never_gentler_or_surer(
@@ -88,7 +87,15 @@ def test_nearer_or_faster_is_never_gentler_or_surer(
     here = advise(hazard, distance_m, speed_kmh, weather)  # type: ignore[arg-type]
     worse = advise(hazard, distance_m / nearer, speed_kmh * faster, weather)  # type: ignore[arg-type]
     assert worse.confidence <= here.confidence
-    assert EFFORT[worse.choice] >= EFFORT[here.choice]
+    assert firmness(worse) >= firmness(here)
+
+
+def test_no_neighbour_on_the_grid_or_near_a_change_is_gentler_or_surer() -> None:
+    cases = [advise(kind, metres, kmh) for kind in PLACEABLE for metres in DISTANCES_M for kmh in SPEEDS_KMH]
+    pairs = [*grid_pairs(cases), *random_pairs(400, seed=8)]
+    assert len(cases) == 360
+    assert len(pairs) > 1300
+    assert not [pair for pair in pairs if pair.surer or pair.gentler]
 
 
 def test_before_people_on_foot_the_speed_of_impact_counts() -> None:

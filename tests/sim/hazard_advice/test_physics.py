@@ -6,9 +6,13 @@ import pytest
 
 from sim.hazard_advice import physics
 from sim.hazard_advice.parameters import GRAVITY
-
-HIGHWAY_CODE = {20: (6, 6), 30: (9, 14), 40: (12, 24), 50: (15, 38), 60: (18, 55), 70: (21, 75)}
-"""Typical stopping distances of the British Highway Code, rule 126: mph → thinking and braking, metres."""
+from tools.published_stopping import (
+    GREEN_BOOK,
+    HIGHWAY_CODE,
+    ROSEN_SANDER_RATIOS,
+    TEFFT_DEATH,
+    rss_distance,
+)
 
 
 @pytest.mark.parametrize("kmh", range(20, 131, 10))
@@ -16,6 +20,33 @@ def test_stopping_is_the_green_books_sight_distance(kmh: int) -> None:
     """AASHTO Green Book, stopping sight distance: 0.278·V·t + 0.039·V²/a, with t = 2.5 s, a = 3.4 m/s²."""
     printed = 0.278 * kmh * 2.5 + 0.039 * kmh**2 / 3.4
     assert physics.stopping_distance(kmh / 3.6, 2.5, 3.4 / GRAVITY) == pytest.approx(printed, rel=0.01)
+
+
+@pytest.mark.parametrize(("kmh", "metres"), GREEN_BOOK.items())
+def test_the_green_books_table_is_stopping_rounded_up(kmh: int, metres: int) -> None:
+    exact = physics.stopping_distance(kmh / 3.6, 2.5, 3.4 / GRAVITY)
+    assert 0 <= metres - exact < 7
+
+
+@pytest.mark.parametrize("kmh", [5, 30, 50, 100, 150])
+def test_stopping_is_the_distance_of_responsibility_sensitive_safety(kmh: int) -> None:
+    """Before something that stands still, if the car does not speed up first."""
+    ours = physics.stopping_distance(kmh / 3.6, 1.0, 0.7)
+    assert rss_distance(kmh / 3.6, 1.0, 0.0, 0.7 * GRAVITY) == pytest.approx(ours)
+    assert rss_distance(kmh / 3.6, 1.0, 3.5, 0.7 * GRAVITY) > ours
+
+
+@pytest.mark.parametrize(("speeds", "least"), ROSEN_SANDER_RATIOS.items())
+def test_the_risk_of_death_grows_as_published(speeds: tuple[int, int], least: float) -> None:
+    fast, slow = (float(physics.death_risk(float(kmh))) for kmh in speeds)
+    assert least < fast / slow < least + 1
+
+
+@pytest.mark.parametrize(("kmh", "risk"), TEFFT_DEATH.items())
+def test_the_older_american_study_has_the_same_rise_at_lower_speeds(kmh: float, risk: float) -> None:
+    """Tefft's sample has heavier cars and older people: its risks are met at 10 to 22 km/h more by ours."""
+    assert physics.death_risk(kmh) < risk
+    assert physics.death_risk(kmh + 10) < risk < physics.death_risk(kmh + 22)
 
 
 @pytest.mark.parametrize(("mph", "metres"), HIGHWAY_CODE.items())

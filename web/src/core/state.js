@@ -11,6 +11,7 @@ import { logChange, logEvents, logTick } from "../talk/journal.js";
 import { t } from "./texts.js";
 import { NO_STEPS, stepsAfter } from "./undoStack.js";
 import { answerExchange, beginExchange, endUnanswered, refuseExchange, withQuestion } from "../talk/exchanges.js";
+import { shownBy } from "../talk/shown.js";
 import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
 import { INITIAL_VIEWS, viewsAfter } from "../ui/views.js";
 import { worldAfter, worldOf } from "../road/world.js";
@@ -144,7 +145,7 @@ function afterDoing(state, event) {
     case "trouble":
       return { ...state, trouble: event.text };
     case "said":
-      return { ...state, talk: beginExchange(state.talk, event) };
+      return { ...state, talk: beginExchange(state.talk, event), highlight: null };
     case "unsent":
       return { ...state, talk: refuseExchange(state.talk, event.id, NOT_CONNECTED) };
     case "highlight":
@@ -192,6 +193,7 @@ function afterMessage(state, event) {
       return {
         ...state,
         talk: answerExchange(state.talk, event.id, event.result),
+        highlight: shownBy(event.result.answer) ?? state.highlight,
         announcement: event.result.reply,
       };
     case "problem":

@@ -139,8 +139,9 @@ export interface Answer {
 /** A question; which keys belong to which `about` is the contract's table. */
 export interface Ask {
   do: "ask";
-  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending";
+  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending" | "detail" | "other" | "pattern" | "outlook" | "blame" | "planners" | "quiz";
   move?: Move | null;
+  instead?: Move | null;
   tick?: number | null;
   change?: Action[] | null;
   kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
@@ -148,10 +149,15 @@ export interface Ask {
   parameter?: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed" | "view" | "preference" | "road" | "layout" | null;
   value?: number | string | null;
   term?: "arrived" | "astar" | "attentive" | "av" | "barrier" | "bfs" | "camera" | "cautious" | "certificate" | "closest_call" | "columns" | "confidence" | "continuous" | "cooperative" | "courtesy" | "crash" | "detection_sensitivity" | "dijkstra" | "digest" | "dwa" | "dynamics" | "ego" | "episode" | "false_positive_rate" | "fastest" | "forecast" | "fusion" | "grid" | "layout" | "lidar" | "occupancy" | "pedestrian" | "percept" | "perfect" | "planner" | "playback_speed" | "pothole" | "pothole_probability" | "preference" | "priority" | "radar" | "regret" | "rl" | "rows" | "rss" | "rules" | "safety_buffer" | "seed" | "sensor" | "sensor_noise" | "sensor_range_m" | "smooth_ride" | "avoid_potholes" | "spawn_probability" | "step_seconds" | "stuck" | "success_rate" | "target_speed_kmh" | "tick" | "time_of_day" | "traffic" | "ttc" | "vehicle" | "weather" | "what_if" | null;
-  what?: "closest_call" | "summary" | "since" | "between" | "seen" | null;
+  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "fault" | "too_late" | "foreseen" | "avoidable" | "here" | "compare" | "character" | "own" | null;
   until?: number | null;
   ticks?: number | null;
+  seconds?: number | null;
   count?: number | null;
+  how?: "shorter" | "longer" | "why" | "before" | "after" | null;
+  which?: Which | null;
+  planners?: ("rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative")[] | null;
+  planner?: "rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative" | null;
 }
 
 /** The first message of a socket where the service asks for a key: the key, or a ticket. */
@@ -1373,6 +1379,23 @@ export interface Where {
   id?: string | null;
   each?: "lane" | null;
   of?: Landmark | null;
+}
+
+/** A road user that is asked about: the nearest one of a kind at a place, or one by its id. */
+export interface Which {
+  lane?: "left" | "middle" | "right" | number | null;
+  lanes?: [number, number] | null;
+  row?: number | null;
+  rows?: [number, number] | null;
+  cell?: [number, number] | null;
+  side?: "ahead" | "behind" | "left" | "right" | "beside" | null;
+  distance_m?: number | null;
+  cells?: number | null;
+  nearest?: true | null;
+  id?: string | null;
+  each?: "lane" | null;
+  of?: Landmark | null;
+  kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
 }
 
 /** One action of the language contract. */

@@ -41,6 +41,7 @@ export function createPlan(host, note, page) {
   let palette = readPalette(document.documentElement);
   /** @type {Shown | null} */ let shown = null;
   /** @type {Cell | null} */ let pointed = null;
+  /** @type {State["highlight"]} */ let lit = null;
   let stale = true;
 
   const show = () => render(template(shown, { point, pick }), host);
@@ -67,6 +68,10 @@ export function createPlan(host, note, page) {
   return {
     update(state) {
       if (!state.views.plan) return;
+      if (state.highlight !== lit) {
+        lit = state.highlight;
+        stale = true;
+      }
       const next = sightOf(state);
       if (next === null || (next.world === shown?.world && next.decision === shown.decision)) return;
       shown = next;
@@ -85,7 +90,7 @@ export function createPlan(host, note, page) {
       stale = false;
       const side = Math.max(SPAN, Math.floor(Math.min(frame.clientWidth, frame.clientHeight)));
       canvas.style.inlineSize = canvas.style.blockSize = `${side}px`;
-      drawPlan(fitCanvas(canvas, side, side), side, { ...shown, pointed }, palette);
+      drawPlan(fitCanvas(canvas, side, side), side, { ...shown, pointed, lit: litCells(lit, shown.world) }, palette);
       return false;
     },
   };
@@ -143,6 +148,13 @@ export function sightOf(state) {
   const ego = seen && egoOf(seen.world);
   if (!seen || !ego) return null;
   return { ...seen, centre: ego.cell, ways: seen.decision ? moveOptions(seen.decision, ego.cell) : [] };
+}
+
+/** Where what is pointed at stands now; where it stood, if it is gone. @param {State["highlight"]} lit @param {World} world @returns {Cell[]} */
+function litCells(lit, world) {
+  if (!lit) return [];
+  const there = lit.ids.map((id) => world.things.get(id)).filter((thing) => thing !== undefined);
+  return there.length > 0 ? there.map(({ cell }) => cell) : lit.cells;
 }
 
 /** Of which tick the plan is. @param {Shown} shown @param {State} state */

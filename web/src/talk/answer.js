@@ -6,32 +6,37 @@ import { t } from "../core/texts.js";
 import { MOVES, moveName, plain, reasonWords } from "../core/words.js";
 import { icon } from "../ui/icons.js";
 import { labelOf } from "../why/alternatives.js";
+import { shownBy } from "./shown.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { Action, Answer, Option } from "../core/protocol.js" */
+/** @import { Highlight } from "../core/state.js" */
 
 /** @param {Answer} answer @param {string} reply @param {Page} page */
 export function answerTemplate(answer, reply, page) {
   const causes = answer.causes ?? [];
   const others = (answer.alternatives ?? []).filter(({ move }) => move !== answer.move);
   const play = answer.play ?? answer.counterfactual;
-  return html`<div class="answer">
+  const whole = shownBy(answer);
+  const show = () => page.highlight(whole);
+  const hide = () => page.highlight(null);
+  return html`<div class="answer" @pointerenter=${show} @pointerleave=${hide}>
     <p class="reply">${answer.text || reply}</p>
     ${
       causes.length > 0
-        ? html`<ul class="causes" aria-label=${t("answer.causes")}>${causes.map((cause) => causeTemplate(cause, page))}</ul>
+        ? html`<ul class="causes" aria-label=${t("answer.causes")}>${causes.map((cause) => causeTemplate(cause, whole, page))}</ul>
             ${proofTemplate(answer)}`
         : nothing
     }
     ${others.length > 0 ? alternativesTemplate(others, answer.tick, page) : nothing}
-    ${play?.at_tick === undefined ? nothing : watchButton(play.at_tick, play.actions ?? play.change ?? [], page)}
+    ${play?.at_tick === undefined ? nothing : playButton(play, page)}
   </div>`;
 }
 
-/** @param {Answer["causes"][number]} cause @param {Page} page */
-function causeTemplate(cause, page) {
+/** @param {Answer["causes"][number]} cause @param {Highlight | null} whole  what all of the answer points at @param {Page} page */
+function causeTemplate(cause, whole, page) {
   const show = () => page.highlight({ ids: [cause.id], cells: cause.cell ? [cause.cell] : [] });
-  const hide = () => page.highlight(null);
+  const hide = () => page.highlight(whole);
   return html`<li>
     <button class="cause" type="button" title=${t("answer.show")} data-kind=${cause.kind}
       @pointerenter=${show} @pointerleave=${hide} @focus=${show} @blur=${hide} @click=${show}>
@@ -58,6 +63,15 @@ function proofTemplate({ verified }) {
     ${icon("proof")}<span>${t("answer.proved")}</span>
     ${shown.map((property) => html`<span class="proof-tag" title=${t(`answer.${property}_for`)}>${t(`answer.${property}`)}</span>`)}
   </p>`;
+}
+
+/** Play a move, or a change, beside the real run. @param {NonNullable<Answer["play"] | Answer["counterfactual"]>} play @param {Page} page */
+function playButton(play, page) {
+  const tick = Number(play.at_tick);
+  const move = "move" in play ? play.move : undefined;
+  if (move === undefined) return watchButton(tick, play.actions ?? play.change ?? [], page);
+  const watch = () => page.pick({ kind: "move", tick, move });
+  return html`<button class="button small watch" type="button" @click=${watch}>${icon("play")}${t("answer.watch")}</button>`;
 }
 
 /** Play a change beside the real run. @param {number} tick @param {Action[]} actions @param {Page} page */

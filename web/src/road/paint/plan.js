@@ -20,6 +20,7 @@ export const SPAN = 9;
  * @property {Record<string, Cell>} next  where movers are about to be, by id
  * @property {Way[]} ways
  * @property {Cell | null} pointed  the cell that is spoken of
+ * @property {Cell[]} [lit]  cells of what an answer points at
  */
 
 /**
@@ -28,7 +29,7 @@ export const SPAN = 9;
  * @param {Sight} sight
  * @param {Palette} palette
  */
-export function drawPlan(pen, side, { world, centre, next, ways, pointed }, palette) {
+export function drawPlan(pen, side, { world, centre, next, ways, pointed, lit = [] }, palette) {
   const cell = side / SPAN;
   const half = (SPAN - 1) / 2;
   /** @param {Cell} at @returns {[number, number]} the centre of a cell */
@@ -57,6 +58,7 @@ export function drawPlan(pen, side, { world, centre, next, ways, pointed }, pale
     if (standing === "blocked" && move !== "stay") cross(pen, ...spot(to), cell, palette);
     if (standing === "taken") intended(pen, spot(centre), spot(to), cell, palette);
   }
+  for (const at of lit.filter(near)) ring(pen, ...spot(at), cell, palette.accent);
   if (pointed && near(pointed)) {
     const [x, y] = spot(pointed);
     pen.strokeStyle = palette.focus;
@@ -85,6 +87,15 @@ function ground(pen, cell, world, centre, palette) {
       pen.globalAlpha = 1;
     }
   }
+}
+
+/** Round what is pointed at. @param {Pen} pen @param {number} x @param {number} y @param {number} cell @param {string} colour */
+function ring(pen, x, y, cell, colour) {
+  pen.strokeStyle = colour;
+  pen.lineWidth = Math.max(1.5, cell * 0.06);
+  pen.beginPath();
+  pen.arc(x, y, cell * 0.47, 0, 2 * Math.PI);
+  pen.stroke();
 }
 
 /** A cell that is not to be had. @param {Pen} pen @param {number} x @param {number} y @param {number} cell @param {string} colour */

@@ -1,0 +1,191 @@
+"""Answers about what lies ahead: is a move safe, when do I arrive, do I crash, am I stuck, what would help."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from service.contract.encode.ahead import (
+    arrival_json,
+    crash_ahead_json,
+    repair_json,
+    safe_move_json,
+    stuck_json,
+)
+from service.narration.answer_length import Part, within
+from service.narration.answerer import Json, not_so, plain
+from service.narration.charges import in_seconds
+from service.narration.crash_ahead import CrashesAhead
+from service.narration.futures_told import counted_told, end_told, share_told, yes_and_no
+from service.narration.naming import Naming
+from service.narration.repair import Repairs
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.explain import QuestionError
+from sim.explain.ahead import Arrival, StuckAhead, arrival, crash_ahead, stuck_ahead
+from sim.explain.planners import planner_of
+from sim.explain.repair import repair
+from sim.explain.safe_move import SafeMove, safe_move
+from sim.session.timeline import Timeline
+from sim.state import SimState
+from sim.types import Mode, Move, Outcome
+
+
+class Outlooks:
+    """Answers to "is it safe to go left?", "when will we arrive?", "will you crash?", "are you stuck?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+        self._crashes = CrashesAhead(sayings)
+        self._repairs = Repairs(sayings)
+        self._ways: dict[str, Callable[[Asked], tuple[str, Json]]] = {
+            "safe": self._safe,
+            "arrival": self._arrival,
+            "crash": self._crash,
+            "stuck": self._stuck,
+            "arrive_how": self._arrive_how,
+            "avoid_how": self._avoid_how,
+        }
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`. Where the episode has ended, that is the answer."""
+        ask, state = asked.ask, asked.timeline.state
+        try:
+            text, facts = self._ways[str(ask.what)](asked)
+        except QuestionError as error:
+            return plain(self._sayings, ask, state, not_so(self._sayings, error.code, error.facts))
+        running = state.world.outcome is Outcome.RUNNING
+        if running and state.ego().mode is Mode.MANUAL and ask.what != "safe":
+            text = f"{self._say('by_hand')} {text}"
+        return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
+
+    def _safe(self, asked: Asked) -> tuple[str, Json]:
+        found = safe_move(asked.timeline, asked.ask.move or Move.STAY)
+        text = self._safe_text(found, yes_and_no(self._sayings, asked))
+        return within([Part(0, text), Part(1, self._given_away(found))]), safe_move_json(found)
+
+    def _safe_text(self, found: SafeMove, first: dict[str, str]) -> str:
+        """Yes or no, `first` as words, and why."""
+        if found.off_road:
+            return self._say("safe", "off_road", **first)
+        if found.hit is not None or found.then is None:
+            ids = () if found.hit is None else found.hit.ids
+            naming = Naming(self._sayings, found.state, as_seen=False)
+            names = [name for name in ids if name not in found.state.egos or name != found.state.ego().id]
+            return self._say("safe", "hit", who=naming.things(names), **first)
+        end = end_told(self._sayings, found.then, since=found.state.world.tick)
+        if found.safe:
+            return self._say("safe", "good" if found.proved else "sampled", end=end, **first)
+        if found.then.by_chance:
+            share = share_told(self._sayings, found.then.crashes, found.then.chances)
+            return self._say("safe", "crash_chance", share=share, **first)
+        return self._say("safe", "crash", end=end, **first)
+
+    def _given_away(self, found: SafeMove) -> str:
+        return self._say("safe", "gives_away") if found.then is not None and found.open is False else ""
+
+    def _arrival(self, asked: Asked) -> tuple[str, Json]:
+        found = arrival(asked.timeline)
+        sure, state = found.confidence, found.state
+        if sure.arrives == 0.0:
+            parts = [Part(0, self._never(found)), *self._ways_there(found)]
+            return within(parts), arrival_json(found)
+        first, last = sure.arrival_ticks or (0, 0)
+        facts = {"metres": self._metres(state)}
+        if first == last and sure.arrives == 1.0 and sure.futures is None:
+            return self._say("arrival", "sure", seconds=self._seconds(last, state), **facts), arrival_json(
+                found
+            )
+        text = self._say(
+            "arrival",
+            "chance",
+            first=self._seconds(first, state),
+            last=self._seconds(last, state),
+            share=self._share(found),
+            **facts,
+        )
+        return text, arrival_json(found)
+
+    def _share(self, found: Arrival) -> str:
+        return counted_told(self._sayings, found.confidence.arrives, found.confidence.futures)
+
+    def _never(self, found: Arrival) -> str:
+        planner = self._sayings.planner(planner_of(found.state), "with")
+        if found.confidence.chance and not found.confidence.method == "one_run":
+            return self._say("arrival", "never_chance", planner=planner)
+        return self._say("arrival", "never", planner=planner, end=end_told(self._sayings, found.foresight))
+
+    def _ways_there(self, found: Arrival) -> list[Part]:
+        """Another planner that arrives, or a way that does, or that there is none."""
+        if found.instead is not None:
+            seen = found.instead.foresight
+            planner = self._sayings.planner(found.instead.planner, "with")
+            if seen.by_chance:
+                share = share_told(self._sayings, seen.arrives, seen.chances)
+                return [Part(1, self._say("arrival", "instead_chance", planner=planner, share=share))]
+            seconds = self._seconds(seen.story.ticks, found.state)
+            return [Part(1, self._say("arrival", "instead", planner=planner, seconds=seconds))]
+        if found.plan is not None:
+            return [Part(1, self._way("arrival", found.plan, found.state))]
+        shut = found.outlook is not None and not found.outlook.open
+        return [Part(1, self._say("arrival", "shut"))] if shut else []
+
+    def _way(self, table: str, plan: tuple[Move, ...], state: SimState) -> str:
+        doing = self._sayings.move(plan[0], "doing")
+        return self._say(table, "way", seconds=self._seconds(len(plan), state), doing=doing)
+
+    def _crash(self, asked: Asked) -> tuple[str, Json]:
+        found = crash_ahead(asked.timeline)
+        return self._crashes.text(found, plainly=asked.supposes == "reason"), crash_ahead_json(found)
+
+    def _stuck(self, asked: Asked) -> tuple[str, Json]:
+        if (over := _ended_stuck(asked.timeline)) is not None:
+            return self._say("stuck", "over"), over
+        found = stuck_ahead(asked.timeline)
+        return within(self._stuck_parts(found)), stuck_json(found)
+
+    def _stuck_parts(self, found: StuckAhead) -> list[Part]:
+        shut = found.outlook
+        if shut is not None and not shut.open:
+            naming = Naming(self._sayings, found.state, as_seen=False)
+            without = self._say("stuck", "without", who=naming.things(shut.ids)) if shut.ids else ""
+            return [Part(0, self._say("stuck", "late" if shut.late else "shut")), Part(1, without)]
+        end = end_told(self._sayings, found.foresight)
+        if found.stuck:
+            planner = self._sayings.planner(planner_of(found.state), "with")
+            plan = found.plan
+            open_way = "" if plan is None else self._way("stuck", plan, found.state)
+            return [Part(0, self._say("stuck", "planner", planner=planner, end=end)), Part(1, open_way)]
+        if found.waits and found.waits < found.foresight.story.driven and not found.foresight.by_chance:
+            seconds = self._seconds(found.waits, found.state)
+            return [Part(0, self._say("stuck", "waiting", seconds=seconds, end=end))]
+        return [Part(0, self._say("stuck", "going", end=end))]
+
+    def _arrive_how(self, asked: Asked) -> tuple[str, Json]:
+        found = repair(asked.timeline, "arrive")
+        return self._repairs.text(found), repair_json(found)
+
+    def _avoid_how(self, asked: Asked) -> tuple[str, Json]:
+        found = repair(asked.timeline, "avoid")
+        facts: dict[str, Any] = repair_json(found)
+        if found.reached:
+            return self._repairs.text(found), facts
+        crash = crash_ahead(asked.timeline)
+        ways = self._crashes.avoiding(crash)
+        return within([*ways, *self._repairs.parts(found)]), facts | crash_ahead_json(crash)
+
+    def _metres(self, state: SimState) -> str:
+        return self._sayings.number(state.world.road.cell(state.world.av)[1] * state.config.cell_m)
+
+    def _seconds(self, ticks: int, state: SimState) -> str:
+        return in_seconds(self._sayings, ticks, state.config)
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("ahead", *keys, **parts)
+
+
+def _ended_stuck(timeline: Timeline) -> Json | None:
+    """The facts where the episode has ended stuck already; else None."""
+    world = timeline.state.world
+    return {"stuck": True, "outcome": world.outcome} if world.outcome is Outcome.STUCK else None

@@ -1,0 +1,138 @@
+"""Answers about blame and duty: whose fault, when too late, seen coming, avoidable; yes or no first."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypeAlias
+
+from service.contract.encode.blame import blame_json, foreseen_json
+from service.narration.answer_length import Part, within
+from service.narration.answerer import Json, plain
+from service.narration.charges import in_seconds
+from service.narration.crash import Crashes
+from service.narration.futures_told import yes_and_no
+from service.narration.inflection import capital
+from service.narration.naming import Naming
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.explain import QuestionError
+from sim.explain.blame import RERUN_TICKS, Blame, Fault, Foreseen, blame, foreseen
+from sim.explain.crash import SAVED_WITHIN, Crash
+from sim.state import SimState
+
+Words: TypeAlias = Mapping[str, str]
+
+
+class Blames:
+    """Answers to "whose fault was it?", "when was it too late?", "could you have avoided it?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+        self._crashes = Crashes(sayings)
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`. Where there was no crash, that is the answer."""
+        ask, timeline, first = asked.ask, asked.timeline, yes_and_no(self._sayings, asked)
+        try:
+            if ask.what == "foreseen":
+                seen = foreseen(timeline, ask.tick)
+                text, facts = self._foreseen(seen, first), foreseen_json(seen)
+            else:
+                found = blame(timeline, ask.tick)
+                text, facts = self._text(str(ask.what), found, first), blame_json(found)
+        except QuestionError as error:
+            return plain(self._sayings, ask, timeline.state, self._crashes.not_so(error))
+        return plain(self._sayings, ask, timeline.state, text) | {"what": ask.what} | facts
+
+    def _text(self, what: str, found: Blame, first: Words) -> str:
+        if what == "fault":
+            return within(self._fault(found))
+        if what == "too_late":
+            return self._too_late(found)
+        return within(self._avoidable(found, first))
+
+    def _fault(self, found: Blame) -> list[Part]:
+        decision = found.decision
+        parts: dict[str, object] = {"who": self._hit(found.crash, found.state)}
+        parts["did"] = self._sayings.move(decision.move, "did")
+        if decision.fault is not None:
+            parts["fault"] = self._sayings.fault(decision.fault)
+        parts["planner"] = self._sayings.planner(decision.planner, "id")
+        told = [Part(0, self._say("fault", found.fault, **parts))]
+        if found.fault in (Fault.EGO, Fault.SHARED):
+            told.append(Part(1, self._how(found)))
+        elif found.avoidable.last is not None and found.fault in (Fault.OTHER, Fault.NOBODY):
+            told.append(Part(3, self._say("hindsight", **self._last(found))))
+        return [*told, Part(2, self._say("measure"))]
+
+    def _how(self, found: Blame) -> str:
+        """How the ego could have kept clear."""
+        if found.free and found.knew:
+            return self._say("free", doing=self._sayings.move(found.free[0], "doing"))
+        if found.avoidable.last is None:
+            return ""
+        when = "now" if found.ticks_before == 1 else "before"
+        return capital(self._say("kept", when, **self._last(found)))
+
+    def _too_late(self, found: Blame) -> str:
+        if found.avoidable.last is None:
+            return self._none(found, "too_late", "always", {})
+        key = "after" if found.exact else "found"
+        return self._say("too_late", key, **self._last(found))
+
+    def _avoidable(self, found: Blame, first: Words) -> list[Part]:
+        """Yes or no, `first` as words, and how."""
+        last = found.avoidable.last
+        if last is None:
+            return [Part(0, self._none(found, "avoidable", "none", first))]
+        when = "now" if found.ticks_before == 1 else "before"
+        key = "stays" if last.stays else "moves"
+        told = [Part(0, self._say("avoidable", key, when, **self._last(found), **first))]
+        if not found.knowable:
+            told.append(Part(1, self._say("avoidable", "hindsight")))
+        saving = found.crash.saving
+        if saving is not None:
+            told.append(Part(2, self._say("avoidable", "way", tick=saving.tick)))
+        return told
+
+    def _none(self, found: Blame, table: str, proved: str, first: Words) -> str:
+        """That there was no way out, or that none was found."""
+        if found.avoidable.proved:
+            return self._say(table, proved, **first)
+        most = SAVED_WITHIN if found.state.config.free_ways_hold else RERUN_TICKS
+        looked = min(most, found.crash.end - found.state.world.episode_start)
+        return self._say(table, "unknown", seconds=self._seconds(looked, found.state))
+
+    def _last(self, found: Blame) -> dict[str, object]:
+        """The facts of the last way out."""
+        last = found.avoidable.last
+        assert last is not None
+        return {
+            "tick": last.tick,
+            "did": self._sayings.move(last.made, "did"),
+            "doing": self._sayings.move(last.instead, "doing"),
+            "seconds": self._seconds(found.crash.end - last.tick, found.state),
+        }
+
+    def _foreseen(self, found: Foreseen, first: Words) -> str:
+        who = self._hit(found.crash, found.state)
+        since = found.expected_since
+        if since is None:
+            key = "unseen" if found.seen_since is None else "elsewhere"
+            return self._say("foreseen", key, who=who, **first)
+        before = found.crash.end - since
+        seconds = self._seconds(before, found.state)
+        key = "late" if before == 1 else "expected"
+        told = self._say("foreseen", key, who=who, tick=since, seconds=seconds, **first)
+        return told if found.crash.free else f"{told} {self._say('foreseen', 'no_way')}"
+
+    def _hit(self, crash: Crash, state: SimState) -> str:
+        ids = [name for name in crash.cause.ids if name != crash.explanation.decision.av]
+        return Naming(self._sayings, state, as_seen=False).things(ids)
+
+    def _seconds(self, ticks: int, state: SimState) -> str:
+        return in_seconds(self._sayings, ticks, state.config)
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("blame", *keys, **parts)

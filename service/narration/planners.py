@@ -1,0 +1,185 @@
+"""Answers about planners: what others would do here, how one drives, what would have been done."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+from service.actions import Ask
+from service.contract.encode.planners import character_json, own_move_json, planners_json
+from service.narration.answer_length import Part, within
+from service.narration.answerer import Json, not_so, plain
+from service.narration.charges import in_seconds
+from service.narration.futures_told import CONTRARY, end_told, share_told, yes_and_no
+from service.narration.inflection import capital
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.explain import QuestionError
+from sim.explain.foresight import Foresight
+from sim.explain.own_move import OwnMove, own_move
+from sim.explain.planner_character import Character, character_of
+from sim.explain.planners import PlannerDrive, PlannersHere, planner_of, planners_here
+from sim.state import SimState
+
+JUDGED: Final = "judged"
+"""What a question supposes that asks whether a move was good."""
+
+
+class Planners:
+    """Answers to "what would A* do here?", "how does this planner drive?", "what would you have done?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`."""
+        ask, state = asked.ask, asked.timeline.state
+        try:
+            text, facts = self._told(asked)
+        except QuestionError as error:
+            return plain(self._sayings, ask, state, not_so(self._sayings, error.code, error.facts))
+        return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
+
+    def _told(self, asked: Asked) -> tuple[str, Json]:
+        ask, timeline = asked.ask, asked.timeline
+        if ask.what == "character":
+            return self._character(ask, timeline.state)
+        if ask.what == "own":
+            found = own_move(timeline, ask.tick)
+            judged = asked.supposes in (JUDGED, CONTRARY)
+            first = yes_and_no(self._sayings, asked) if judged else {}
+            return self._own(found, first), own_move_json(found)
+        here = planners_here(timeline, ask.planners)
+        return self._here(here, best=ask.what == "compare"), planners_json(here)
+
+    def _here(self, found: PlannersHere, *, best: bool) -> str:
+        """One line for each way to drive, those that were asked about first."""
+        lines = [self._line(found, drives) for drives in _alike(found, found.others)]
+        own = self._line(found, [found.own])
+        told = [own, *lines] if best else [*lines, own]
+        parts = [Part(0, text) for text in told]
+        if best and found.others:
+            parts.append(Part(1, self._best(found)))
+        if found.missing:
+            names = self._sayings.joined([self._sayings.quoted(name) for name in found.missing])
+            parts.insert(0, Part(0, self._say("missing", names=names)))
+        return within(parts, None)
+
+    def _line(self, found: PlannersHere, drives: Sequence[PlannerDrive]) -> str:
+        """What planners do that drive alike from here on, and what comes of it."""
+        first = drives[0]
+        names = self._sayings.joined([self._sayings.planner(drive.planner) for drive in drives])
+        own = first is found.own
+        if own:
+            names = self._say("driving", planner=names)
+        return capital(
+            self._say(
+                "line", planners=names, what=self._what(found, first, own), end=self._end(first.foresight)
+            )
+        )
+
+    def _what(self, found: PlannersHere, drive: PlannerDrive, own: bool) -> str:
+        path, ahead = drive.foresight.story.path, 0 if own else found.parting(drive)
+        if ahead is None or ahead >= len(path):
+            return self._say("what", "same")
+        move = self._sayings.move(path[ahead], "name")
+        seconds = in_seconds(self._sayings, ahead, found.state.config)
+        return self._say("what", "later" if ahead else "now", move=move, seconds=seconds)
+
+    def _end(self, seen: Foresight) -> str:
+        story = seen.story
+        key = "silent" if story.silent is not None else str(story.outcome)
+        return self._say(
+            "ends",
+            "chance" if seen.by_chance else key,
+            seconds=in_seconds(self._sayings, story.ticks, seen.state.config),
+            a="" if story.cause is None else self._sayings.say("words", "a", story.cause.kind),
+            share=share_told(self._sayings, seen.arrives, seen.chances),
+        )
+
+    def _best(self, found: PlannersHere) -> str:
+        ranked = found.ranked
+        if ranked[0].foresight.arrives == 0.0:
+            return self._say("best", "none")
+        names = [self._sayings.planner(drive.planner) for drive in found.best]
+        return self._say("best", "one", planners=self._sayings.joined(names))
+
+    def _character(self, ask: Ask, state: SimState) -> tuple[str, Json]:
+        name = planner_of(state) if ask.planner is None else ask.planner
+        found = character_of(name)
+        planner = self._sayings.planner(name)
+        if found is None:
+            return self._say("uncounted", planner=planner), character_json(None)
+        return self._say("character", planner=planner, **self._figures(found)), character_json(found)
+
+    def _figures(self, found: Character) -> dict[str, str]:
+        shares = {name: getattr(found, name) / found.roads for name in ("arrived", "crashed", "stuck")}
+        told = {name: self._percent(share) for name, share in (shares | dict(found.moves)).items()}
+        number = self._sayings.number
+        return told | {
+            "roads": number(found.roads, ",d"),
+            "seconds": number(found.arrival_s, ".1f"),
+            "lost": number(found.lost_s, ".1f"),
+        }
+
+    def _percent(self, share: float) -> str:
+        return self._sayings.number(100 * share, ".1f" if 0 < share < 0.1 or 0.9 < share < 1 else ".0f")
+
+    def _own(self, found: OwnMove, first: Mapping[str, str]) -> str:
+        """What the planner would have done; with words for yes and no, whether the move was good, first."""
+        parts = []
+        if first:
+            parts += [Part(0, self._say("judged", "good" if found.good else "bad", **first))]
+        elif not found.by_person:
+            parts.append(Part(1, self._say("own", "by_planner", tick=found.made.tick)))
+        parts.append(Part(0, self._instead(found)))
+        parts.append(Part(1, self._cost(found)))
+        return within(parts)
+
+    def _instead(self, found: OwnMove) -> str:
+        since = found.state.world.tick
+        made = end_told(self._sayings, found.after_made, since=since)
+        if found.same:
+            name = self._sayings.move(found.would, "name")
+            told = self._say("own", "same", name=name, tick=found.made.tick)
+            return f"{told} {self._say('own', 'both', end=made)}"
+        return self._say(
+            "own",
+            "other",
+            tick=found.made.tick,
+            would=self._sayings.move(found.would, "doing"),
+            made=self._sayings.move(found.made.move, "doing"),
+            end_would=end_told(self._sayings, found.after_would, since=since),
+            end_made=made,
+        )
+
+    def _cost(self, found: OwnMove) -> str:
+        """What the move that was made costs against the best, where that is certain."""
+        lost = found.regret
+        if lost is None or not found.state.config.certain:
+            return ""
+        if lost.lost:
+            return self._say("gives_away")
+        if lost.ticks is None:
+            return ""
+        if lost.ticks == 0:
+            return self._say("best_move")
+        seconds = in_seconds(self._sayings, lost.ticks, found.state.config)
+        return self._say("costs", seconds=seconds)
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("planners", *keys, **parts)
+
+
+def _alike(found: PlannersHere, drives: Sequence[PlannerDrive]) -> list[list[PlannerDrive]]:
+    """The planners by how they are told: those that part from the one that drives alike, and end alike."""
+    groups: dict[object, list[PlannerDrive]] = {}
+    for drive in drives:
+        story, ahead = drive.foresight.story, found.parting(drive)
+        move = None if ahead is None or ahead >= len(story.path) else story.path[ahead]
+        kind = None if story.cause is None else story.cause.kind
+        chance = drive.foresight.chances
+        key = (ahead, move, story.outcome, story.end, kind, story.silent is None, chance)
+        groups.setdefault(key, []).append(drive)
+    return list(groups.values())
