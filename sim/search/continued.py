@@ -2,7 +2,7 @@
 
 A drive asks again at every tick. As long as everything goes on as was foretold, what was found of a later
 tick holds: its costs and bounds are looked up, and not searched for again. A forecast follows on an earlier
-one if after its first tick everything stands where the earlier one had it then; from there on both are the same.
+one if after its first tick everything stands where the earlier one had it then; from there on both are alike.
 """
 
 from __future__ import annotations
