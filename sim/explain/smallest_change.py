@@ -27,7 +27,7 @@ MOST_EDITS: Final = 3
 """Edits of the largest change that is looked for."""
 MOST_TRIES: Final = 400
 """Changes that are tried for an answer; where decisions search to the goal, their work ends it sooner."""
-MOST_CUT: Final = 6
+MOST_CUT: Final = 7
 """Edits of a change of which every part is tried."""
 
 
@@ -162,7 +162,9 @@ class ChangeSearch:
     def _without_spare(self, edits: Edits) -> Edits:
         """A smallest part that still reaches the move; of many edits, one of which none can be spared."""
         if len(edits) > MOST_CUT:
-            return tuple(ddmin(edits, self.reaches))
+            edits = tuple(ddmin(edits, self.reaches))
+        if len(edits) > MOST_CUT:
+            return edits
         parts = (part for size in range(1, len(edits)) for part in combinations(edits, size))
         return next(filter(self.reaches, parts), edits)
 
