@@ -60,7 +60,7 @@ def kinds_of(actions: Sequence[Action]) -> set[str]:
 
 
 def read_asked(language: Language, text: str, topic: Topic) -> Parse | None:
-    """A sentence that is one about the kind spoken of, or about two things: "how many are left?", "swap them"."""
+    """A sentence about the kind spoken of, or about two things: "how many are left?", "swap them"."""
     tokens = _tokens(language, text)
     answers, kind = language.data.answers, kind_spoken_of(topic)
     names = language.sentences.names(kind) if kind is not None else {}
@@ -126,8 +126,9 @@ def _sure(language: Language, text: str, topic: Topic, meant: Understood) -> boo
     if any(edge.concept == QUANTITY and edge.sense.value in _MORE for edge in scan.all()):
         return True
     placed = all(getattr(action, "where", None) is not None for action in meant.actions)
-    verb = any(concept.startswith("v.") for concept in language.concepts(text))
-    return placed and (verb or all(isinstance(action, Add | SetCount) for action in topic.actions))
+    return placed and (
+        says_verb(language, text) or all(isinstance(action, Add | SetCount) for action in topic.actions)
+    )
 
 
 def _all_of(kind: str, actions: Sequence[Action]) -> bool:
@@ -205,6 +206,13 @@ class _InFull:
         before = self._plain[tokens[0].start : tokens[start - 1].end] if start else ""
         after = self._plain[tokens[end].start : tokens[-1].end] if end < len(tokens) else ""
         return " ".join(part for part in (before, words, after) if part)
+
+
+def says_verb(language: Language, text: str) -> bool:
+    """Whether a sentence has a verb of a request; words that may as well say nothing are none ("in")."""
+    edges = list(language.scan(_tokens(language, text)).all())
+    empty = {edge.start for edge in edges if edge.concept in (GLUE, "prep")}
+    return any(edge.concept.startswith("v.") and edge.start not in empty for edge in edges)
 
 
 def _in_phrase(scan: Lattice, start: int, end: int) -> bool:

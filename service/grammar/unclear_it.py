@@ -17,6 +17,7 @@ from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Understood
 from service.grammar.references import MAX_CANDIDATES, REFERS
 from service.grammar.sentences import Unsayable
+from service.grammar.thing_talk import says_verb
 from service.grammar.tokens import normalise, tokenise
 from service.grammar.topic import Topic
 from sim.actions import Add, Direction, Drive, Landmark, MoveThings, Shift, Where
@@ -57,7 +58,8 @@ def _things_meant(action: Action, topic: Topic) -> list[Action]:
     if isinstance(action, Drive):
         by = Shift(side=action.move)
         return [MoveThings(kind=kind, count=1, where=where, by=by) for kind, where in wheres]
-    assert isinstance(action, Add) and action.where is not None
+    assert isinstance(action, Add)
+    assert action.where is not None
     marks = [
         Landmark(id=where.id) if where.id else Landmark(kind=kind, nearest=True) for kind, where in wheres
     ]
@@ -65,7 +67,7 @@ def _things_meant(action: Action, topic: Topic) -> list[Action]:
 
 
 def ask_whether(language: Language, text: str, topic: Topic, parsed: Understood) -> Ambiguous | None:
-    """The question whether a word alone with a question mark is a request ("left?"); None where it is none."""
+    """The question whether a word alone with a question mark is a request: "left?"."""
     if not text.rstrip().endswith("?") or not all(traits_of(each).undo_step for each in parsed.actions):
         return None
     tokens = tokenise(normalise(text), language.data.contractions)[:-1]
@@ -74,7 +76,7 @@ def ask_whether(language: Language, text: str, topic: Topic, parsed: Understood)
     asked = bool(topic.actions) and all(traits_of(each).is_question for each in topic.actions)
     if len(tokens) - follows > MAX_ALONE or (follows and not joined and not asked):
         return None
-    if any(concept.startswith("v.") for concept in language.concepts(text)):
+    if says_verb(language, text):
         return None
     return _question(language, text, language.data.answers.shall, [*parsed.actions], together=True)
 

@@ -144,6 +144,8 @@ class Conversation:
             self._record_change(fact)
         if outcome.answer is not None or any(not isinstance(fact, Answerable) for fact in facts):
             self._explained = None if outcome.answer is None else explained(outcome.answer, actions)
+        if len(self._batch) > 1:
+            self._listed = self._batch  # things added together are counted by themselves
         self._tick = None if outcome.answer is None else tick_told(outcome.answer, actions)
         chosen = outcome.answer is None and outcome.utterance.actions[0] in self._offered
         self._offered = (
@@ -183,7 +185,7 @@ class Conversation:
             self._away = (*(() if taken_back else self._away), away)[-2:]
 
     def record_refused(self, utterance: Utterance) -> None:
-        """Record a request that could not be done: "no, radar" is meant instead of it, and nothing is undone."""
+        """Record a request that could not be done: "no, radar" is meant instead, and nothing is undone."""
         if any(isinstance(action, Undo | Redo | Drop | Chat) for action in utterance.actions):
             return
         self._durable = self._durable or self.durable
