@@ -124,7 +124,8 @@ def _said_once(language: Language, text: str, topic: Topic) -> Parse | None:
         return None
     once = plain[words[0].start : words[0].end]
     parsed = language.parse(once, topic)
-    return None if isinstance(parsed, Refused) else replace(parsed, text=text)
+    steady = isinstance(parsed, Understood) and all(traits_of(each).idempotent for each in parsed.actions)
+    return replace(parsed, text=text) if steady and isinstance(parsed, Understood) else None
 
 
 def _after_preface(language: Language, text: str, topic: Topic) -> Parse | None:
