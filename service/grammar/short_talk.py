@@ -154,6 +154,7 @@ def pick_going_on(language: Language, text: str, topic: Topic, parsed: Parse) ->
     if not isinstance(parsed, Ambiguous) or not goes_on or topic.undone:
         return None
     fits = [each for each in parsed.choices if shape(each.actions) == shape(topic.actions)]
+    fits = [each for each in fits if all(isinstance(action, Adjust | Goal) for action in each.actions)]
     return Understood(text, fits[0].actions) if len(fits) == 1 else None
 
 

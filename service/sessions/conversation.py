@@ -215,7 +215,9 @@ class Conversation:
             self._taken += tuple(thing.id for thing in fact.removed)
             self._things += tuple(name for name in self._before if kind_of(name) == action.kind)
         self._removed = isinstance(action, Remove) or (bool(fact.removed) and not fact.added)
-        if not isinstance(action, Swap) and action.kind != "everything":
+        if isinstance(action, MoveThings):
+            self._kind = None  # "another to lane 2" is not one more
+        elif not isinstance(action, Swap) and action.kind != "everything":
             self._kind = action.by if isinstance(action, Replace) else action.kind
         self._where = _fixed_place(_place_of(action), fact)
 
