@@ -49,6 +49,9 @@ from service.grammar.unparsed_span import Gap, GapFinder
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from sim.actions import Add, Remove
 
+SHIFT = "v.shift"
+"""Concept of verbs that move things on the road."""
+
 CHOICE_STEPS = 10
 """What one action of a choice costs: it is validated, and said back."""
 
@@ -176,6 +179,8 @@ class Reading:
         values, spans = _once(clauses, self._tokens)
         if not values:
             return self._refusal("negation", self._messages["negation"])
+        if self._drives_a_thing(values):
+            return self._refuse([self._plain.strip()], (), asking=asking)
         try:
             actions = load(values)
         except ValidationError:
@@ -184,6 +189,14 @@ class Reading:
             return self._more_of_what(actions) if asking else self._refuse([self._plain], ())
         supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
         return Understood(self._text, actions, self._corrections, supposes, spans)
+
+    def _drives_a_thing(self, values: Sequence[dict[str, Any]]) -> bool:
+        """Whether the vehicle would turn although something that is not known was to be moved: "move it left"."""
+        return any(value["do"] == "drive" for value in values) and any(
+            edge.concept == SHIFT and edge.end == unclear.start
+            for unclear in self._unclear
+            for edge in self._lattice.between(max(0, unclear.start - 2), unclear.start)
+        )
 
     def _divide(self, start: int, end: int, moods: frozenset[str]) -> Divided:
         """The clauses of tokens `[start, end)`, with these forms in place."""

@@ -158,6 +158,10 @@ class Suggestions:
                 known[0] |= 1 << at
                 known[1] |= (not needs.isdisjoint(each.all)) << at
         self._words = [_Word(meant, *masks) for meant, masks in words.items()]
+        self._meaning: dict[Meaning, list[int]] = {}
+        for at, word in enumerate(self._words):
+            for one in word.meant:
+                self._meaning.setdefault(one, []).append(at)
         needed = (saying.needs for saying in self._sayings)
         self._needed = frozenset(name for needs in needed for need in needs for name, _ in need)
         self._tellings: dict[frozenset[Meaning], _Telling] = {}
@@ -225,9 +229,8 @@ class Suggestions:
         ]
 
     def _new_telling(self, meant: frozenset[Meaning]) -> _Telling:
-        shared = (
-            (_share(meant, word.meant), word) for word in self._words if not meant.isdisjoint(word.meant)
-        )
+        near = sorted({at for one in meant for at in self._meaning.get(one, ())})
+        shared = ((_share(meant, self._words[at].meant), self._words[at]) for at in near)
         alike = [(share, word) for share, word in shared if share >= _ALIKE]
         needing = reduce(or_, (word.needing for _, word in alike), 0)
         return _Telling(meant, frozenset(name for name, _ in meant), alike, needing)
