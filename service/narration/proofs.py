@@ -56,7 +56,8 @@ class Proofs:
             if more := len(alone) - most:
                 flips.append(self._say("more_alone", "one" if more == 1 else "many", count=more))
             told = self._say("run_again", flips=capital(self._sayings.listed(flips)))
-            if most == 1 or self._detailed or len(told.split()) <= MOST_WORDS // 2:
+            room = MOST_WORDS // 2 - len(self._untried().split())
+            if most == 1 or self._detailed or len(told.split()) <= room:
                 return told
         return ""
 
