@@ -26,6 +26,9 @@ from sim.types import kind_of
 REFERS = "refers"
 """Concept of words that refer; their value says how."""
 
+GOAL = "goal_mark"
+"""Concept of words before a destination: "to"."""
+
 BY_ID = "thing.id"
 TAUGHT = "taught"
 MAX_CANDIDATES = 5
@@ -115,6 +118,8 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
             return _things(start, end, topic.things)
         case "all" | "both" as which:
             return _several(start, end, topic, both=which == "both")
+        case "every":
+            return _every(start, end, topic)
         case "person" if len(topic.things) == 1 and kind_of(topic.things[0]) == "pedestrian":
             return _things(start, end, topic.things)
         case "person":
@@ -150,7 +155,7 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
             return _next(start, end, topic)
         case "other" | "others" as which:
             return _others(start, end, topic, one=which == "other")
-        case "back" if _took_away(topic):
+        case "back" if _took_away(topic) and not _goes_to(lattice, end):
             return Edge(start, end, Sense(REPEATED, dump((take_back_change(topic),))))
         case "back_both" | "undo_both" as which if steps := steps_of_two(
             topic, put_back=which == "back_both"
@@ -193,6 +198,15 @@ def _keep_whole(lattice: Lattice, outer: Edge) -> None:
             for edge in lattice.edges[at]
             if edge.end > outer.end or (edge.start, edge.end) == (outer.start, outer.end)
         ]
+
+
+def _every(start: int, end: int, topic: Topic) -> Edge | Unclear:
+    """All of several things: those spoken of, or where that is one, all that were told or added with it."""
+    there = tuple(name for name in topic.listed if name not in topic.gone)
+    for things in (topic.things, there):
+        if len(things) > 1:
+            return _things(start, end, things)
+    return _several(start, end, topic, both=False) if not topic.listed else Unclear(start, end, topic.things)
 
 
 def _several(start: int, end: int, topic: Topic, *, both: bool) -> Edge | Unclear:
@@ -262,6 +276,11 @@ def _so_many(start: int, end: int, topic: Topic, number: int) -> Edge | Unclear:
         if number > 1 and len(things) == number:
             return _things(start, end, things)
     return Unclear(start, end)
+
+
+def _goes_to(lattice: Lattice, at: int) -> bool:
+    """Whether a destination follows: "put it back to that" is no undo."""
+    return at < lattice.size and any(edge.concept == GOAL for edge in lattice.edges[at])
 
 
 def _took_away(topic: Topic) -> bool:

@@ -203,7 +203,9 @@ class Conversation:
             return
         self._set_episode(fact.state.world)
         self._things += tuple(thing.id for thing in fact.added)
-        self._things += tuple(each.thing.id for each in fact.moved)
+        moved = tuple(each.thing.id for each in fact.moved)
+        # What was there already is spoken of as well.
+        self._things += moved or (named((action,)) if isinstance(action, MoveThings) else ())
         added = tuple(thing.id for thing in fact.added)
         self._listed = (*(name for name in self._listed if name not in added), *added)
         self._batch += added
