@@ -16,7 +16,8 @@ from service.actions.table import traits_of
 from service.grammar.answer_words import FOLLOWS, NO
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Understood
-from service.grammar.references import MAX_CANDIDATES, REFERS
+from service.grammar.references import REFERS
+from service.grammar.referents import MAX_CANDIDATES
 from service.grammar.sentences import Unsayable
 from service.grammar.setting_talk import setting_of
 from service.grammar.thing_talk import says_verb
