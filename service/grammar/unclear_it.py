@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import get_args
+from typing import cast, get_args
 
 from service.actions import Action
 from service.actions.table import traits_of
@@ -23,14 +23,14 @@ from service.grammar.setting_talk import setting_of
 from service.grammar.thing_talk import says_verb
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
-from sim.actions import Add, Direction, Drive, Landmark, MoveThings, Reset, Shift, Where
+from sim.actions import Add, Direction, Drive, Landmark, MoveThings, PlaceableKind, Reset, Shift, Where
 from sim.types import kind_of
 
 MOVES_THINGS = "v.shift"
 """Concept of the verbs that move things, and the vehicle where nothing else is said."""
 
 BESIDE = "beside"
-OFFERED_KINDS = ("vehicle", "barrier")
+OFFERED_KINDS: tuple[PlaceableKind, ...] = ("vehicle", "barrier")
 """Of these the nearest is offered where nothing was spoken of."""
 
 MAX_ALONE = 4
@@ -66,10 +66,12 @@ def _refers(language: Language, text: str) -> bool:
 
 def _things_meant(action: Action, topic: Topic) -> list[Action]:
     """The request done to each thing that may be meant: those spoken of, or the nearest."""
-    wheres = [(kind_of(name), Where(id=name)) for name in topic.things[-MAX_CANDIDATES:]]
+    wheres: list[tuple[PlaceableKind, Where]] = [
+        (cast(PlaceableKind, str(kind_of(name))), Where(id=name)) for name in topic.things[-MAX_CANDIDATES:]
+    ]
     wheres = wheres or [(kind, Where(nearest=True)) for kind in OFFERED_KINDS]
     if isinstance(action, Drive):
-        by = Shift(side=action.move)
+        by = Shift(side=cast(Direction, str(action.move)))
         return [MoveThings(kind=kind, count=1, where=where, by=by) for kind, where in wheres]
     assert isinstance(action, Add)
     assert action.where is not None
