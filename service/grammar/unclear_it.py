@@ -1,6 +1,6 @@
 """Asks what is meant where a request would be done to the vehicle although "it" may be a thing.
 
-"Move it to the left" with nothing or several things spoken of, and "a cone next to it", have the vehicle's
+"Move it to the left" with several things spoken of, and "a cone next to it", have the vehicle's
 side in them only because no thing is known that could be meant. A word alone with a question mark is no
 request either: "left?" is asked about.
 """
