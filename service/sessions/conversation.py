@@ -299,6 +299,7 @@ class Conversation:
     def topic(self, world: World, phrases: Phrases, names: Iterable[str] = ()) -> Topic:
         """What a sentence said now may refer to; `names` are those of bookmarks."""
         there = {*world.movers.values(), *world.hazards.values()} if self._episode == _episode(world) else ()
+        kinds = {kind_of(name) for name in self._things if name in there} or {self._kind}
         return Topic(
             things=tuple(name for name in self._things if name in there),
             before=tuple(name for name in self._before if name in there and name not in self._things),
@@ -320,7 +321,7 @@ class Conversation:
             kind=self._kind,
             tick=self._tick,
             offered=self._offered,
-            others=sum(kind_of(name) == self._kind for name in set(there) - set(self._things)),
+            others=sum(kind_of(name) in kinds for name in set(there) - set(self._things)),
             removed=self._removed,
             where=self._where,
             phrases=phrases,
