@@ -299,7 +299,8 @@ class Conversation:
     def topic(self, world: World, phrases: Phrases, names: Iterable[str] = ()) -> Topic:
         """What a sentence said now may refer to; `names` are those of bookmarks."""
         there = {*world.movers.values(), *world.hazards.values()} if self._episode == _episode(world) else ()
-        kinds = {kind_of(name) for name in self._things if name in there} or {self._kind}
+        kinds: set[str | None] = {str(kind_of(name)) for name in self._things if name in there}
+        kinds = kinds or {self._kind}
         return Topic(
             things=tuple(name for name in self._things if name in there),
             before=tuple(name for name in self._before if name in there and name not in self._things),
