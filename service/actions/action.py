@@ -134,7 +134,7 @@ class Ask:
             raise ValueError(f"'{what}' does not belong to a question about {self.about}")
         if self.about == "other":
             return  # its keys do not depend on what is asked
-        keys: Mapping[str, tuple[frozenset[str], ...]] = (
+        keys: Mapping[Any, tuple[frozenset[str], ...]] = (
             HISTORY_KEYS if self.about == "history" else WHAT_KEYS
         )
         named = frozenset(key for key in _BESIDE_WHAT if getattr(self, key) is not None)

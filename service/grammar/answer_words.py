@@ -59,6 +59,9 @@ NOUN = "noun"
 OF_THEM = "of_them"
 """Concept of words for all the things spoken of; what to read instead: "half of them"."""
 
+ALL_OF_THEM = "all_of_them"
+"""Concept of those of them that are all, and not some: "them"."""
+
 ENDING_NOUN = "ending_noun"
 """Concept of endings after which a noun is left out: "all but the nearest"."""
 

@@ -75,6 +75,10 @@ def _after_last(language: Language, text: str, topic: Topic, parsed: Parse, *, a
         elsewhere := ask_elsewhere(language, text, topic, parsed)
     ):
         return elsewhere
+    if isinstance(parsed, Understood) and not _asks_in(topic) and _of_detail(parsed):
+        # "And the next one" is about the last request where nothing was explained.
+        leaning = Leaning(language, text, tokenise(normalise(text), language.data.contractions), topic)
+        return leaning.read() or parsed
     if not (alone or _goes_on_asking(topic, parsed)):
         return _completed(language, text, topic, parsed)
     tokens = tokenise(normalise(text), language.data.contractions)
@@ -124,7 +128,8 @@ def _said_once(language: Language, text: str, topic: Topic) -> Parse | None:
         return None
     once = plain[words[0].start : words[0].end]
     parsed = language.parse(once, topic)
-    return None if isinstance(parsed, Refused) else replace(parsed, text=text)
+    steady = isinstance(parsed, Understood) and all(traits_of(each).idempotent for each in parsed.actions)
+    return replace(parsed, text=text) if steady and isinstance(parsed, Understood) else None
 
 
 def _after_preface(language: Language, text: str, topic: Topic) -> Parse | None:
@@ -173,6 +178,14 @@ def _takes_the_place(language: Language, text: str, topic: Topic, parsed: Unders
         return False
     tokens = without_marks(tokenise(normalise(text), language.data.contractions))
     return language.data.answers.ending(tokens, INSTEAD) > 0
+
+
+def _asks_in(topic: Topic) -> bool:
+    return all(traits_of(action).is_question for action in topic.actions)
+
+
+def _of_detail(parsed: Understood) -> bool:
+    return all(isinstance(action, Ask) and action.about == "detail" for action in parsed.actions)
 
 
 def _goes_on_asking(topic: Topic, parsed: Parse) -> bool:

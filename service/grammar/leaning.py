@@ -14,12 +14,13 @@ from service.actions.table import traits_of
 from service.grammar.answer_words import AFTER, BEFORE, CORRECTS, FOLLOWS, INSTEAD, TOO, TOTAL
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
+from service.grammar.references import REFERS
 from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, said_before, shape
 from service.grammar.same_request import to_other_things
 from service.grammar.sentences import Unsayable
 from service.grammar.short_talk import without_marks
-from service.grammar.tokens import Token, normalise
+from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import WorkBudget
 from sim.actions import Add, SetCount
@@ -101,6 +102,8 @@ class Leaning:
         short = numbers.read(rest, 0) is not None or numbers.ordinal(rest[-1]) is not None
         after = self._answers.one_after if short else ()
         other = to_other_things(self._language, named, self._spoken_of, done, after)
+        if other is None and self._points(rest):
+            return None
         if other is not None and other != done:
             return Understood(self._text, self._whole(other, correcting))
         meant = self._amended_alike(base, done, rest, goes_on=not correcting)
@@ -108,6 +111,23 @@ class Leaning:
         if meant is not None:
             return Understood(self._text, self._whole(meant, correcting))
         return self._question(base, done, rest, correcting)
+
+    def _points(self, rest: Sequence[Token]) -> bool:
+        """Whether all that is said points at something ("the first"): that is added by nothing."""
+        if not any(isinstance(action, Add | SetCount) for action in self.done):
+            return False
+        sentences = (
+            self._written(rest),
+            *(each.format(said=self._written(rest)) for each in self._answers.one_after),
+        )
+        for said in sentences[:2]:
+            tokens = tokenise(normalise(said), self._language.data.contractions)
+            if any(
+                edge.concept == REFERS and edge.start == 0 and edge.end == len(tokens)
+                for edge in self._language.scan(tokens).all()
+            ):
+                return True
+        return False
 
     def _denied(self) -> Actions | None:
         """The last request with one part in the place of another: "five, not three", "not cars, potholes"."""

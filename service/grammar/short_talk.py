@@ -78,9 +78,9 @@ def read_short(language: Language, text: str, topic: Topic) -> Parse | None:
 
 
 def _times(request: Sequence[Action], number: int) -> tuple[Action, ...]:
-    """The last request so many times; nothing where that is too often, or it is a question."""
-    asks = any(traits_of(action).is_question for action in request)
-    if asks or not 1 <= number <= MAX_TIMES or number * len(request) > MAX_REPEATED:
+    """The last change or steps of time so many times; nothing where that is too often."""
+    again = all(traits_of(action).undo_step or isinstance(action, Step) for action in request)
+    if not again or not 1 <= number <= MAX_TIMES or number * len(request) > MAX_REPEATED:
         return ()
     return (*request,) * number
 
@@ -154,6 +154,7 @@ def pick_going_on(language: Language, text: str, topic: Topic, parsed: Parse) ->
     if not isinstance(parsed, Ambiguous) or not goes_on or topic.undone:
         return None
     fits = [each for each in parsed.choices if shape(each.actions) == shape(topic.actions)]
+    fits = [each for each in fits if all(isinstance(action, Adjust | Goal) for action in each.actions)]
     return Understood(text, fits[0].actions) if len(fits) == 1 else None
 
 

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from service.actions import Action, Ask
 from service.grammar.answer_words import (
+    ALL_OF_THEM,
     COUNTED,
     ENDING_NOUN,
     FOLLOWS,
@@ -28,7 +29,7 @@ from service.grammar.references import REFERS
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
-from sim.actions import Add, Replace, SetCount
+from sim.actions import Add, Remove, Replace, SetCount
 
 _MORE = ("more", "another")
 """Values of the quantities that add to what is there."""
@@ -52,7 +53,7 @@ def kinds_of(actions: Sequence[Action]) -> set[str]:
     kinds: set[str] = set()
     for action in actions:
         if isinstance(action, Ask) and action.change:
-            kinds |= kinds_of(action.change)
+            kinds |= kinds_of([each for each in action.change if isinstance(each, Add | Remove)])
         kind = action.by if isinstance(action, Replace) else getattr(action, "kind", None)
         if kind is not None:
             kinds.add(kind)
@@ -69,13 +70,23 @@ def read_asked(language: Language, text: str, topic: Topic) -> Parse | None:
         said = str(template).format(**names)
     elif (both := two_things(topic)) is not None and (template := answers.meant(tokens, TWO)) is not None:
         said = str(template).format(*both)
+    pointed = said is None and bool(tokens) and language.data.numbers.ordinal(tokens[-1]) is not None
+    if pointed and answers.one_after:
+        said = answers.one_after[0].format(said=normalise(text)[: tokens[-1].end])
     if said is None:
         return None
     try:
         meant = language.read(said, topic, WorkBudget(), asking=False)
     except BudgetExceededError:
         return None
-    return replace(meant, text=text) if isinstance(meant, Understood) else None
+    if not isinstance(meant, Understood) or (pointed and not all(map(_names_thing, meant.actions))):
+        return None
+    return replace(meant, text=text)
+
+
+def _names_thing(action: Action) -> bool:
+    where = getattr(action, "where", None)
+    return where is not None and where.id is not None
 
 
 def _tokens(language: Language, text: str) -> Sequence[Token]:
@@ -171,8 +182,15 @@ class _InFull:
 
     def counted(self) -> Iterator[str]:
         """How many there shall be: "set it to four"."""
-        counted = self._answers.meant(self._tokens, COUNTED, self._numbers)
-        if counted is not None:
+        about = self._topic.asked_kind is not None or all(
+            isinstance(action, Add | Remove | SetCount)
+            or (isinstance(action, Ask) and action.about == "scene")
+            for action in self._topic.actions
+        )
+        counted = self._answers.meant(self._tokens, COUNTED, self._numbers) if about else None
+        if counted is not None and tuple(counted.values()) != (
+            1,
+        ):  # "make it one" may be another of its kind
             ((form, count),) = counted.items()
             yield str(self._answers.counted_things[form]).format(count=count, **self._names)
 
@@ -182,7 +200,9 @@ class _InFull:
             return
         for at in range(1, len(tokens)):
             end, template = self._answers.longest(tokens, at, OF_THEM)
-            if end > at:
+            # After some were taken away "them" are not what is left, but "two of them" are of these.
+            whole = self._language.data.answers.longest(tokens, at, ALL_OF_THEM)[0] > at
+            if end > at and (self._topic.things or not whole or _asked(self._topic)):
                 yield self._joined(tokens, at, end, str(template).format(**self._names))
 
     def _with_noun(self, tokens: Sequence[Token]) -> Iterator[str]:
@@ -206,6 +226,10 @@ class _InFull:
         before = self._plain[tokens[0].start : tokens[start - 1].end] if start else ""
         after = self._plain[tokens[end].start : tokens[-1].end] if end < len(tokens) else ""
         return " ".join(part for part in (before, words, after) if part)
+
+
+def _asked(topic: Topic) -> bool:
+    return all(isinstance(action, Ask) for action in topic.actions)
 
 
 def says_verb(language: Language, text: str) -> bool:

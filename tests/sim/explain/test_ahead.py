@@ -1,4 +1,4 @@
-"""What is said of the time ahead holds when the road is really driven, tick by tick, with what was claimed."""
+"""What is said of the time ahead holds when the road is really driven, tick by tick, as was claimed."""
 
 from __future__ import annotations
 
@@ -113,7 +113,7 @@ def test_an_arrival_is_when_it_is_told_to_be() -> None:
         assert found.confidence.arrives == 0.0
         if found.instead is not None:
             going = timeline.copy()
-            going.apply(1, [Set(parameter="planner", value=found.instead.planner)])  # type: ignore[arg-type]
+            going.apply(1, [Set(parameter="planner", value=found.instead.planner)])
             assert driven(going).outcome is Outcome.SUCCESS
         if found.plan is not None:
             world = timeline.state.world
@@ -174,10 +174,7 @@ def test_a_change_that_helps_does_and_no_smaller_one_does(aim: str) -> None:
             going = timeline.copy()
             going.apply(
                 1,
-                [
-                    Remove(kind=kind_of(id).value, count=1, where=Where(id=id))  # type: ignore[arg-type]
-                    for id in found.removed
-                ],
+                [Remove(kind=kind_of(id).value, count=1, where=Where(id=id)) for id in found.removed],
             )
             assert driven(going).outcome in wanted
             for id in found.removed if len(found.removed) > 1 else ():
@@ -185,7 +182,7 @@ def test_a_change_that_helps_does_and_no_smaller_one_does(aim: str) -> None:
                 assert ended(without(timeline.state, rest)).outcome not in wanted
         if found.planner is not None:
             going = timeline.copy()
-            going.apply(1, [Set(parameter="planner", value=found.planner.planner)])  # type: ignore[arg-type]
+            going.apply(1, [Set(parameter="planner", value=found.planner.planner)])
             assert driven(going).outcome in wanted
     assert helped > 0
 
@@ -195,7 +192,7 @@ def test_every_planner_does_here_what_it_does_when_it_is_set() -> None:
         found = planners_here(timeline)
         for drive in (found.own, *found.others):
             going = timeline.copy()
-            going.apply(1, [Set(parameter="planner", value=drive.planner)])  # type: ignore[arg-type]
+            going.apply(1, [Set(parameter="planner", value=drive.planner)])
             first = going.advance().decision
             assert first is not None
             assert first.move is drive.first
