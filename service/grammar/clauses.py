@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from service.grammar.accounting import VERB
 from service.grammar.composition import Composition, Matcher, asks, within
 from service.grammar.fragments import AND, BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, THEN, Fragment
 from service.grammar.frames import Filled
@@ -33,6 +34,9 @@ _WHOLE = (".all", ".the_many", ".bare_many", ".those")
 
 _FURTHER = ("more", "another")
 _PLACED = ("place", "side", "length")
+
+STEERING = ("pause", "resume", "reset")
+"""Concepts of verbs that are requests alone."""
 
 CONTRAST = "contrast"
 _COUNTING = ("add", "set_count")
@@ -102,7 +106,8 @@ class Divider:
             if clause is None or (
                 before is not None
                 and (
-                    self._says_twice(before, clause, parts[at]) or _may_be_negated(before, clause, parts[at])
+                    self._says_twice(before, clause, parts[at])
+                    or self._may_be_negated(before, clause, parts[at])
                 )
             ):
                 divided.failed = parts[at]
@@ -253,6 +258,21 @@ class Divider:
             return False
         before = self._stretches.make(parts[first].start, parts[at].end, joined=True)
         return self._matcher.match(before, verbless=False) is not None
+
+    def _may_be_negated(self, before: Clause, clause: Clause, part: Fragment) -> bool:
+        """Whether a negation may go on over an "and": "don't add cars and make it rain" may want no rain.
+
+        One after its verb ends with it, where another verb follows.
+        """
+        if not before.negated or before.filled.frame.leaves_out or part.after != AND:
+            return False
+        if not clause.actions or asks(clause.actions):
+            return False
+        if self._composition.verb_of_its_own(part) is None:
+            return True
+        said = list(self._lattice.between(before.start, before.end))
+        verbs = [edge.start for edge in said if edge.concept.startswith(VERB) or edge.concept in STEERING]
+        return any(edge.concept == NEGATION and edge.start <= min(verbs, default=edge.start) for edge in said)
 
     def _says_twice(self, before: Clause, clause: Clause, part: Fragment) -> bool:
         """Whether a part without a verb would be in the scenario before it, which has that already."""
@@ -463,13 +483,6 @@ def _places(edges: Iterable[Edge]) -> dict[str, Any]:
             value = edge.sense.value
             places |= value if isinstance(value, dict) else {edge.concept: value}
     return places
-
-
-def _may_be_negated(before: Clause, clause: Clause, part: Fragment) -> bool:
-    """Whether a negation may go on over an "and": "don't add cars and make it rain" may want no rain."""
-    if not before.negated or before.filled.frame.leaves_out or part.after != AND:
-        return False
-    return bool(clause.actions) and not asks(clause.actions)
 
 
 def _same(apart: Sequence[Clause], joint: Clause) -> bool:

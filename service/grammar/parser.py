@@ -35,7 +35,8 @@ from service.grammar.parse_types import (
 )
 from service.grammar.paths import ALLOWS, SEPARATOR
 from service.grammar.pointing import add_pointing
-from service.grammar.references import Unclear, add_referents
+from service.grammar.references import add_referents
+from service.grammar.referents import Unclear
 from service.grammar.same_sentence import named_before
 from service.grammar.sentences import Sentences, Unsayable
 from service.grammar.small_talk import same_again, small_talk
