@@ -63,7 +63,8 @@ class Sayings:
     def joinable(self) -> tuple[Saying, ...]:
         """Those that say nothing about the sentence beside them: no correction, no call ("autopilot, …").
 
-        Words of order are about it, and "why is that?" is about the explanation before. Small talk is none of them either: beside a request it is passed over.
+        Words of order are about it, and "why is that?" is about the explanation before. Small talk is none of
+        them either: beside a request it is passed over.
         """
         aside = (REPAIR, INTERJECTION, ORDER)
         return tuple(
