@@ -35,7 +35,8 @@ from service.grammar.parse_types import (
 )
 from service.grammar.paths import ALLOWS, SEPARATOR
 from service.grammar.pointing import add_pointing
-from service.grammar.references import Unclear, add_referents
+from service.grammar.references import add_referents
+from service.grammar.referents import Unclear
 from service.grammar.same_sentence import named_before
 from service.grammar.sentences import Sentences, Unsayable
 from service.grammar.small_talk import same_again, small_talk
@@ -191,7 +192,7 @@ class Reading:
         return Understood(self._text, actions, self._corrections, supposes, spans)
 
     def _drives_a_thing(self, values: Sequence[dict[str, Any]]) -> bool:
-        """Whether the vehicle would turn although something that is not known was to be moved: "move it left"."""
+        """Whether the vehicle would turn although something unknown was to be moved: "move it left"."""
         return any(value["do"] == "drive" for value in values) and any(
             edge.concept == SHIFT and edge.end == unclear.start
             for unclear in self._unclear
