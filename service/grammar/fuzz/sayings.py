@@ -12,11 +12,14 @@ from service.grammar.corpus import sentences
 from service.grammar.data import TEST_SUFFIX
 from service.grammar.engine import Language
 from service.grammar.fragments import INTERJECTION
-from service.grammar.order import ORDER
+from service.grammar.free_text import ORDER
 from service.grammar.parse_types import Understood
 from service.grammar.span_patterns import REPAIR
 from service.resources import prompts_folder
 from service.yaml_files import read_yaml
+
+DETAIL = "detail"
+"""What questions are about that lean on the last explanation."""
 
 _VERBS = ("v.", "want", "there_be", "q.")
 """Beginnings of the concepts of words that say what is to be done or known."""
@@ -60,13 +63,14 @@ class Sayings:
     def joinable(self) -> tuple[Saying, ...]:
         """Those that say nothing about the sentence beside them: no correction, no call ("autopilot, …").
 
-        Words of order are about it. Small talk is none of them either: beside a request it is passed over.
+        Words of order are about it, and "why is that?" is about the explanation before. Small talk is none of
+        them either: beside a request it is passed over.
         """
         aside = (REPAIR, INTERJECTION, ORDER)
         return tuple(
             saying
             for saying in self.all
-            if all(action["do"] != "chat" for action in saying.actions)
+            if all(action["do"] != "chat" and action.get("about") != DETAIL for action in saying.actions)
             and not any(each.startswith(aside) for each in self._language.concepts(saying.text))
         )
 
