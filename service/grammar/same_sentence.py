@@ -6,7 +6,7 @@ was about. Things on the road are not found so: "that cone" may be another one w
 
 from __future__ import annotations
 
-from service.grammar.clauses import Divided
+from service.grammar.clause import Divided
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.references import REFERS
 
