@@ -2,8 +2,8 @@
 
     python -m tools.planner_character --roads 2400 --processes 2 --write
 
-All planners drive the same roads, each for one episode. A road is drawn from its seed; how many potholes, cars and
-people are on it, and whether all of them watch out, goes round with the seed. `--write` replaces
+All planners drive the same roads, each for one episode. A road is drawn from its seed; how many potholes, cars
+and people are on it, and whether all of them watch out, goes round with the seed. `--write` replaces
 `sim/explain/planner_character.json`, which names the command.
 """
 
@@ -43,7 +43,7 @@ KINDS: Final = {
     Move.STAY: "stay",
 }
 STATES: Final = 20_000
-"""States searched for the quickest way on a road; where that is not enough, the road counts for no ticks lost."""
+"""States searched for the quickest way on a road; where they are not enough, no ticks lost are counted."""
 GROUP: Final = 24
 
 

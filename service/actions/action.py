@@ -122,10 +122,10 @@ class Ask:
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
         if self.about == "what_if" and (self.change is None) is (self.move is None):
             raise ValueError("say exactly one of 'change' and 'move'")
-        if sum(each is not None for each in (self.tick, self.ticks, self.seconds)) > 1:
-            raise ValueError("say one of 'tick', 'ticks' and 'seconds'")
         if self.what is not None:
             self._check_what(self.what)
+        if sum(each is not None for each in (self.tick, self.ticks, self.seconds)) > 1:
+            raise ValueError("say one of 'tick', 'ticks' and 'seconds'")
         _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))
 
     def _check_what(self, what: str) -> None:
@@ -134,7 +134,7 @@ class Ask:
             raise ValueError(f"'{what}' does not belong to a question about {self.about}")
         if self.about == "other":
             return  # its keys do not depend on what is asked
-        keys: Mapping[str, tuple[frozenset[str], ...]] = (
+        keys: Mapping[Any, tuple[frozenset[str], ...]] = (
             HISTORY_KEYS if self.about == "history" else WHAT_KEYS
         )
         named = frozenset(key for key in _BESIDE_WHAT if getattr(self, key) is not None)

@@ -20,7 +20,7 @@ WRITERS: Final = {".json": as_json, ".csv": as_csv}
 
 
 def quiz(
-    planner: Annotated[str, typer.Option(help="The planner, for instance: astar")] = "priority",
+    planner: Annotated[str, typer.Option(help="The planner, for instance: astar")] = "rules",
     count: Annotated[int, typer.Option(min=1, max=MOST_SITUATIONS, help="Roads before, and after.")] = 6,
     seed: Annotated[int, typer.Option(help="The same seed asks the same.")] = 1,
     language: Annotated[str, typer.Option(help="The language's code.")] = "en",

@@ -59,6 +59,9 @@ VERB = "v."
 SERVES = "prep."
 """What the concepts begin with whose frames use the word before an amount."""
 
+PLACING = "prep.place"
+"""Concept of those before a place; before so many things there is no place: "at 40 potholes"."""
+
 _MEASURED = frozenset(("length", "speed", "seconds", "fraction", "times", "real_times"))
 _PARTS = frozenset((NUMBER, "part_of", "factor", "factor_of"))
 _THINGS = ("noun.thing.one", "noun.thing.many")
@@ -141,6 +144,14 @@ def _amount_end(lattice: Lattice, at: int, *, things: bool) -> int | None:
     return max(ends, default=None)
 
 
+def _counts_things(lattice: Lattice, at: int) -> bool:
+    """Whether a number of things begins at a token."""
+    return any(
+        edge.concept == NUMBER and edge.end < lattice.size and _names_thing(lattice, edge.end)
+        for edge in lattice.edges[at]
+    )
+
+
 def _thing_end(lattice: Lattice, at: int) -> int | None:
     """Where the noun for a thing ends that begins at a token, if nothing longer does."""
     longest = max((edge.end for edge in lattice.edges[at]), default=at)
@@ -167,9 +178,14 @@ def _loose(lattice: Lattice, marker: Edge, free: Set[str]) -> list[Edge]:
     if marker.concept == IDIOM:
         return list(inside)
     if marker.concept in (AMOUNT, MEASURE):
-        passed = free | {GLUE}
+        passed = free | ({GLUE, SECOND} if marker.end == marker.start + 1 else {GLUE})
+        placing = {PLACING} if _counts_things(lattice, marker.end) else frozenset()
         before = [e for e in _reaching_into(lattice, marker) if e.concept == GLUE]  # "time to 3 ticks"
-        return before + [e for e in inside if e.concept in passed and not e.concept.startswith(SERVES)]
+        return before + [
+            e
+            for e in inside
+            if (e.concept in passed and not e.concept.startswith(SERVES)) or e.concept in placing
+        ]
     loose = free | {GLUE, SECOND, SPEAKER}
     if marker.concept == PHRASE:  # its first word decides: "in the rain", but "bring in the rain"
         here = [edge for edge in lattice.edges[marker.start] if edge.end <= marker.end]

@@ -48,7 +48,7 @@ CHOOSES = "chooses"
 """Concept of the beginnings with which one of what an answer listed is chosen: "use"."""
 
 OF_THINGS = "of_things"
-"""Concept of sentences about the kind of thing spoken of; the sentence with its noun: "how many are left?"."""
+"""Concept of sentences about the kind of thing spoken of; what to read instead: "how many are left?"."""
 
 COUNTED = "counted"
 """Concept of such sentences with a number; which of `counted_things` it is, and the number."""
@@ -59,17 +59,23 @@ NOUN = "noun"
 OF_THEM = "of_them"
 """Concept of words for all the things spoken of; what to read instead: "half of them"."""
 
+ALL_OF_THEM = "all_of_them"
+"""Concept of those of them that are all, and not some: "them"."""
+
 ENDING_NOUN = "ending_noun"
 """Concept of endings after which a noun is left out: "all but the nearest"."""
 
 PREFACE = "preface"
-"""Concept of what may be said before a request for its reason; what the request does not do: "too many, …"."""
+"""Concept of reasons before a request, and what it does not do then: "too many, remove half"."""
 
 TWO = "two"
 """Concept of what is done to two things, each of which is to be named: "swap them"."""
 
 ASKS_AGAIN = "asks_again"
 """Concept of what asks the last question again: "and now?"."""
+
+REWORDED = "reworded"
+"""Concept of how a replacement may begin; the beginning to read instead: "make them" cones."""
 
 TIMES = "times"
 """Concept of what does the last request again so many times; the number: "twice more"."""
@@ -84,7 +90,7 @@ GOING_ON = "going_on"
 """Concept of words by which a change goes on with the last one: "still"."""
 
 MUCH_MORE = "much_more"
-"""Concept of what does the last request again, to a degree: "a bit more"; `{again: degree}` or `{turned: ...}`."""
+"""Concept of what asks for the last goal once more, and to which degree: "a bit more"."""
 
 VIEW_SAID = "view_said"
 """Concept of words that stand for the view spoken of last: "hide it"."""
@@ -117,6 +123,8 @@ class Answers:
     """sentences with a number of things (`{count}`, `{one}`, `{many}`), by what they are for"""
     one_after: tuple[str, ...] = ()
     """ways to complete what points at a thing without a noun (`{said}`): "the third" """
+    denies: frozenset[str] = frozenset()
+    """words before what was not meant: "five, not three" """
     continues: Mapping[str, str] = field(default_factory=dict)
     """by kind of request, the sentence that says another without its verb (`{said}`)"""
     shall: str = ""
@@ -140,6 +148,7 @@ class Answers:
             tuple(data.get("incomplete", ())),
             data.get("counted_things", {}),
             tuple(data.get("one_after", ())),
+            frozenset(data.get("denies", ())),
             data.get("continues", {}),
             data.get("shall", ""),
             tuple(data.get("completes", ())),

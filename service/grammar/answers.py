@@ -144,6 +144,8 @@ class _Answering:
         tokens = tokenise(normalise(choice.text), self._language.data.contractions)
         scan = self._language.scan(tokens)
         meanings = {_meaning(edge) for edge in scan.all() if _says_what(edge)}
+        kinds = {getattr(action, "kind", None) for action in choice.actions}
+        meanings |= {("noun.thing", repr(kind)) for kind in kinds if kind is not None}
         return {token.text for token in tokens}, meanings
 
     def _by_words(self, tokens: Sequence[Token], *, literal: bool) -> tuple[Action, ...] | None:

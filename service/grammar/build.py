@@ -97,6 +97,13 @@ def _ids(edge: Edge) -> tuple[str, ...]:
     return edge.sense.value.ids if isinstance(edge.sense.value, Amount) else ()
 
 
+RAISING, LOWERING = "v.up", "v.down"
+"""Concepts of verbs that say which way an amount goes."""
+
+REMOVING = "v.remove"
+"""Concept of verbs of taking away; one with a kind as its value takes away nothing else: "patch" potholes."""
+
+
 class _Maker:
     """Fills the templates of one frame."""
 
@@ -127,10 +134,24 @@ class _Maker:
         value = self._value(template, turn)
         if not isinstance(value, dict):
             raise CannotBuild("an action must be a mapping")
+        if self._is_turned_round(value):
+            raise CannotBuild("the verb and its amount or its thing do not go together")
         about = value.get("parameter")
         if about in self._parameters.takes and any(e.sense.value != about for e in self._filled.of("param")):
             raise CannotBuild("another setting was named")
         return value
+
+    def _is_turned_round(self, action: Mapping[str, Any]) -> bool:
+        """Whether a verb says another thing than the action does: "lower it to twice", "patch the cars"."""
+        verbs = {edge.concept: edge.sense.value for edge in self._filled.slots}
+        only = verbs.get(REMOVING)
+        if isinstance(only, str) and action.get("kind", only) != only:
+            return True
+        if action["do"] != "adjust":
+            return False
+        grows = action.get("factor", 1) > 1 or action.get("by", 0) > 0
+        shrinks = action.get("factor", 1) < 1 or action.get("by", 0) < 0
+        return (grows and LOWERING in verbs) or (shrinks and RAISING in verbs)
 
     def _value(self, template: Any, turn: Edge | None) -> Any:
         if isinstance(template, str) and template.startswith("$"):

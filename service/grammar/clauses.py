@@ -58,8 +58,12 @@ class Divider:
             clause, used = self._next(parts, at, context)
             if clause is not None and at + used < len(parts) and self._either_way(parts, at, used):
                 clause, at = None, at + used
+            before = divided.clauses[-1] if divided.clauses else None
             if clause is None or (
-                divided.clauses and self._says_twice(divided.clauses[-1], clause, parts[at])
+                before is not None
+                and (
+                    self._says_twice(before, clause, parts[at]) or _may_be_negated(before, clause, parts[at])
+                )
             ):
                 divided.failed = parts[at]
                 return divided
@@ -237,6 +241,13 @@ class Divider:
         whole = (parts[a:b] for a, b in zip(begins, [*begins[1:], len(parts)], strict=True))
         stretches = (self._stretches.make(s[0].start, s[-1].end, joined=len(s) > 1) for s in whole)
         return all(self._matcher.match(stretch, verbless=False) is not None for stretch in stretches)
+
+
+def _may_be_negated(before: Clause, clause: Clause, part: Fragment) -> bool:
+    """Whether a negation may go on over an "and": "don't add cars and make it rain" may want no rain."""
+    if not before.negated or before.filled.frame.leaves_out or part.after != AND:
+        return False
+    return bool(clause.actions) and not asks(clause.actions)
 
 
 def _same(apart: Sequence[Clause], joint: Clause) -> bool:

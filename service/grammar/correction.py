@@ -83,6 +83,10 @@ def _redo_with_correction(
     parsed = language.read(f"{said}, {plain}", ALONE, work, asking=False)
     if not isinstance(parsed, Understood) or len(parsed.actions) != len(done) or parsed.actions == done:
         return None
+    # Of several alike it is not known which one is corrected.
+    alike = len(done) > 1 and len({(each.do, _about(each)) for each in done}) == 1
+    if alike and any(before == after for before, after in zip(done, parsed.actions, strict=True)):
+        return None
     return parsed.actions
 
 

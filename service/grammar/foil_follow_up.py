@@ -74,10 +74,12 @@ def _move_said(language: Reader, said: str) -> Move | None:
         (action,) = parsed.actions
         if at == 0 and isinstance(action, Drive) and action.ego is None:
             return action.move
-        if action in (
-            Ask(about="why_not", move=move) for move in Move if at == 0 or move is not _BASES[at - 1]
+        same = at > 0 and action == Ask(about="why_not", move=_BASES[at - 1])
+        if (
+            isinstance(action, Ask)
+            and action == Ask(about="why_not", move=action.move or Move.STAY)
+            and not same
         ):
-            assert isinstance(action, Ask)
             return action.move
     return None
 

@@ -15,7 +15,6 @@ from service.grammar.paths import SEPARATOR
 PAUSE = "pause"
 STOP = "stop"
 THEN = "then"
-AND = "and"
 OR = "or"
 AND = "and"
 BEGINS_NEGATION = "negation.begins"

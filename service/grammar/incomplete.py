@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 from service.actions import Action
+from service.grammar.answer_words import INSTEAD, TOO
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
 from service.grammar.sentences import Unsayable
@@ -82,6 +83,9 @@ def ask_elsewhere(language: Language, text: str, topic: Topic, parsed: Understoo
     (done,) = topic.actions
     drives = isinstance(parsed, Understood) and all(isinstance(each, Drive) for each in parsed.actions)
     if not isinstance(done, Add) or not (drives or isinstance(parsed, Refused)):
+        return None
+    tokens = tokenise(normalise(text), language.data.contractions)
+    if language.data.answers.ending(tokens, INSTEAD) or language.data.answers.ending(tokens, TOO):
         return None
     where = _place(language, text, done)
     if where is None:

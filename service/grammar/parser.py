@@ -6,6 +6,9 @@ this file and not the reverse. No word of any language is here either.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 from pydantic import ValidationError
 
 from service.actions import load
@@ -29,6 +32,9 @@ from service.grammar.small_talk import same_again, small_talk
 from service.grammar.spoken_tick import name_spoken_tick
 from service.grammar.subordinate import read_all
 from service.grammar.time_clauses import read_in_time
+
+SHIFT = "v.shift"
+"""Concept of verbs that move things on the road."""
 
 
 def content_of(lattice: Lattice) -> frozenset[str]:
@@ -80,6 +86,8 @@ class Reading(Asking):
         values, spans = once(clauses, self._tokens)
         if not values:
             return self._refusal("negation", self._messages["negation"])
+        if self._drives_a_thing(values):
+            return self._refuse([self._plain.strip()], (), asking=asking)
         try:
             actions = load(values)
         except ValidationError:
@@ -88,6 +96,14 @@ class Reading(Asking):
             return self._more_of_what(actions) if asking else self._refuse([self._plain], ())
         supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
         return Understood(self._text, actions, self._corrections, supposes, spans)
+
+    def _drives_a_thing(self, values: Sequence[dict[str, Any]]) -> bool:
+        """Whether the vehicle would turn although something that is not known was to be moved: "move it left"."""
+        return any(value["do"] == "drive" for value in values) and any(
+            edge.concept == SHIFT and edge.end == unclear.start
+            for unclear in self._unclear
+            for edge in self._lattice.between(max(0, unclear.start - 2), unclear.start)
+        )
 
     def _refuse_after(self, divided: Divided, *, asking: bool) -> Parse:
         """The refusal of a sentence of known words that make no request; or a question about one of them."""

@@ -129,8 +129,8 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
         case "there" if topic.where is not None:
             said = {key: part for key, part in asdict(topic.where).items() if part is not None}
             return Edge(start, end, Sense("place", said))
-        case {"nth": int() as number}:
-            return _nth(start, end, topic, number)
+        case {"nth": int() as number} if 0 < number <= len(topic.listed):
+            return _things(start, end, topic.listed[number - 1 : number])
         case "opposite" if (other := turned(topic)) is not None:
             return Edge(start, end, Sense(REPEATED, dump(done_anew(topic, other))))
         case "since" if topic.tick is not None:
@@ -232,16 +232,6 @@ def _next(start: int, end: int, topic: Topic) -> Edge | Unclear:
     after = topic.listed[places[-1] + 1 :] if places else ()
     left = tuple(name for name in after if name not in topic.gone)
     return _things(start, end, left[:1]) if left else Unclear(start, end)
-
-
-def _nth(start: int, end: int, topic: Topic, number: int) -> Edge | Unclear:
-    """The second one of what was told or added: of the latest, or of all that were added one after another."""
-    of_all, latest = (things[number - 1 : number] for things in (topic.listed, topic.batch))
-    if not of_all or number < 1:
-        return Unclear(start, end)
-    if len(topic.batch) > 1 and latest and latest != of_all:
-        return Unclear(start, end, (*of_all, *latest))
-    return _things(start, end, of_all)
 
 
 def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:

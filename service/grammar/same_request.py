@@ -30,7 +30,7 @@ class LanguageReader(Protocol):
 def to_other_things(
     language: LanguageReader, named: str, topic: Topic, done: Sequence[Action], noun_after: Sequence[str] = ()
 ) -> tuple[Action, ...] | None:
-    """The last request done to the things that are `named`; None where it is done to none, or they are unclear.
+    """The last request done to the things that are `named`; None where they are none, or unclear.
 
     `named` is as it was said, and what it may refer to is in the topic; `noun_after` are ways to complete it
     ("the third": "the third one").

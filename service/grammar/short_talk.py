@@ -1,4 +1,4 @@
-"""Reads short sentences about the last request or question as a whole: "and now?", "twice more", "a bit more".
+"""Reads short sentences about the last request as a whole: "and now?", "twice more", "a bit more".
 
 Whatever is repeated is repeated as it was meant, at most `MAX_TIMES` times.
 """
@@ -17,6 +17,7 @@ from service.grammar.answer_words import (
     GOING_ON,
     MORE_TICKS,
     MUCH_MORE,
+    REWORDED,
     STILL,
     TIMES,
     TOO,
@@ -29,7 +30,7 @@ from service.grammar.sentences import Unsayable
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import ALONE, Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
-from sim.actions import Adjust, Degree
+from sim.actions import Adjust, Degree, Replace
 
 MAX_TIMES = 10
 """How often a request is repeated at most."""
@@ -57,6 +58,12 @@ def read_short(language: Language, text: str, topic: Topic) -> Parse | None:
         number = answers.meant(tokens, concept, numbers)
         if isinstance(number, int) and (actions := meaning(topic.request, number)):
             return Understood(text, actions)
+    end, beginning = answers.longest(tokens, 0, REWORDED)
+    if beginning is not None and end < len(tokens):
+        said = f"{beginning} {normalise(text)[tokens[end].start : tokens[-1].end]}"
+        parsed = language.read(said, topic, WorkBudget(), asking=False)
+        if isinstance(parsed, Understood) and all(isinstance(each, Replace) for each in parsed.actions):
+            return Understood(text, parsed.actions)
     degree = answers.meant(tokens, MUCH_MORE)
     if degree is not None and (actions := _to_degree(topic.request, degree)):
         return Understood(text, actions)
@@ -71,9 +78,9 @@ def read_short(language: Language, text: str, topic: Topic) -> Parse | None:
 
 
 def _times(request: Sequence[Action], number: int) -> tuple[Action, ...]:
-    """The last request so many times; nothing where that is too often, or it is a question."""
-    asks = any(traits_of(action).is_question for action in request)
-    if asks or not 1 <= number <= MAX_TIMES or number * len(request) > MAX_REPEATED:
+    """The last change or steps of time so many times; nothing where that is too often."""
+    again = all(traits_of(action).undo_step or isinstance(action, Step) for action in request)
+    if not again or not 1 <= number <= MAX_TIMES or number * len(request) > MAX_REPEATED:
         return ()
     return (*request,) * number
 
@@ -147,6 +154,7 @@ def pick_going_on(language: Language, text: str, topic: Topic, parsed: Parse) ->
     if not isinstance(parsed, Ambiguous) or not goes_on or topic.undone:
         return None
     fits = [each for each in parsed.choices if shape(each.actions) == shape(topic.actions)]
+    fits = [each for each in fits if all(isinstance(action, Adjust | Goal) for action in each.actions)]
     return Understood(text, fits[0].actions) if len(fits) == 1 else None
 
 

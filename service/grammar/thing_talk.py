@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from service.actions import Action, Ask
 from service.grammar.answer_words import (
+    ALL_OF_THEM,
     COUNTED,
     ENDING_NOUN,
     FOLLOWS,
@@ -28,7 +29,7 @@ from service.grammar.references import REFERS
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
-from sim.actions import Add, Replace, SetCount
+from sim.actions import Add, Remove, Replace, SetCount
 
 _MORE = ("more", "another")
 """Values of the quantities that add to what is there."""
@@ -52,7 +53,7 @@ def kinds_of(actions: Sequence[Action]) -> set[str]:
     kinds: set[str] = set()
     for action in actions:
         if isinstance(action, Ask) and action.change:
-            kinds |= kinds_of(action.change)
+            kinds |= kinds_of([each for each in action.change if isinstance(each, Add | Remove)])
         kind = action.by if isinstance(action, Replace) else getattr(action, "kind", None)
         if kind is not None:
             kinds.add(kind)
@@ -60,7 +61,7 @@ def kinds_of(actions: Sequence[Action]) -> set[str]:
 
 
 def read_asked(language: Language, text: str, topic: Topic) -> Parse | None:
-    """A sentence that is one about the kind spoken of, or about two things: "how many are left?", "swap them"."""
+    """A sentence about the kind spoken of, or about two things: "how many are left?", "swap them"."""
     tokens = _tokens(language, text)
     answers, kind = language.data.answers, kind_spoken_of(topic)
     names = language.sentences.names(kind) if kind is not None else {}
@@ -69,13 +70,23 @@ def read_asked(language: Language, text: str, topic: Topic) -> Parse | None:
         said = str(template).format(**names)
     elif (both := two_things(topic)) is not None and (template := answers.meant(tokens, TWO)) is not None:
         said = str(template).format(*both)
+    pointed = said is None and bool(tokens) and language.data.numbers.ordinal(tokens[-1]) is not None
+    if pointed and answers.one_after:
+        said = answers.one_after[0].format(said=normalise(text)[: tokens[-1].end])
     if said is None:
         return None
     try:
         meant = language.read(said, topic, WorkBudget(), asking=False)
     except BudgetExceededError:
         return None
-    return replace(meant, text=text) if isinstance(meant, Understood) else None
+    if not isinstance(meant, Understood) or (pointed and not all(map(_names_thing, meant.actions))):
+        return None
+    return replace(meant, text=text)
+
+
+def _names_thing(action: Action) -> bool:
+    where = getattr(action, "where", None)
+    return where is not None and where.id is not None
 
 
 def _tokens(language: Language, text: str) -> Sequence[Token]:
@@ -126,8 +137,9 @@ def _sure(language: Language, text: str, topic: Topic, meant: Understood) -> boo
     if any(edge.concept == QUANTITY and edge.sense.value in _MORE for edge in scan.all()):
         return True
     placed = all(getattr(action, "where", None) is not None for action in meant.actions)
-    verb = any(concept.startswith("v.") for concept in language.concepts(text))
-    return placed and (verb or all(isinstance(action, Add | SetCount) for action in topic.actions))
+    return placed and (
+        says_verb(language, text) or all(isinstance(action, Add | SetCount) for action in topic.actions)
+    )
 
 
 def _all_of(kind: str, actions: Sequence[Action]) -> bool:
@@ -170,8 +182,15 @@ class _InFull:
 
     def counted(self) -> Iterator[str]:
         """How many there shall be: "set it to four"."""
-        counted = self._answers.meant(self._tokens, COUNTED, self._numbers)
-        if counted is not None:
+        about = self._topic.asked_kind is not None or all(
+            isinstance(action, Add | Remove | SetCount)
+            or (isinstance(action, Ask) and action.about == "scene")
+            for action in self._topic.actions
+        )
+        counted = self._answers.meant(self._tokens, COUNTED, self._numbers) if about else None
+        if counted is not None and tuple(counted.values()) != (
+            1,
+        ):  # "make it one" may be another of its kind
             ((form, count),) = counted.items()
             yield str(self._answers.counted_things[form]).format(count=count, **self._names)
 
@@ -181,7 +200,9 @@ class _InFull:
             return
         for at in range(1, len(tokens)):
             end, template = self._answers.longest(tokens, at, OF_THEM)
-            if end > at:
+            # After some were taken away "them" are not what is left, but "two of them" are of these.
+            whole = self._language.data.answers.longest(tokens, at, ALL_OF_THEM)[0] > at
+            if end > at and (self._topic.things or not whole or _asked(self._topic)):
                 yield self._joined(tokens, at, end, str(template).format(**self._names))
 
     def _with_noun(self, tokens: Sequence[Token]) -> Iterator[str]:
@@ -205,6 +226,17 @@ class _InFull:
         before = self._plain[tokens[0].start : tokens[start - 1].end] if start else ""
         after = self._plain[tokens[end].start : tokens[-1].end] if end < len(tokens) else ""
         return " ".join(part for part in (before, words, after) if part)
+
+
+def _asked(topic: Topic) -> bool:
+    return all(isinstance(action, Ask) for action in topic.actions)
+
+
+def says_verb(language: Language, text: str) -> bool:
+    """Whether a sentence has a verb of a request; words that may as well say nothing are none ("in")."""
+    edges = list(language.scan(_tokens(language, text)).all())
+    empty = {edge.start for edge in edges if edge.concept in (GLUE, "prep")}
+    return any(edge.concept.startswith("v.") and edge.start not in empty for edge in edges)
 
 
 def _in_phrase(scan: Lattice, start: int, end: int) -> bool:

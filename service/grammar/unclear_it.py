@@ -7,19 +7,22 @@ request either: "left?" is asked about.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import get_args
 
 from service.actions import Action
 from service.actions.table import traits_of
-from service.grammar.answer_words import FOLLOWS
+from service.grammar.answer_words import FOLLOWS, NO
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Understood
 from service.grammar.references import MAX_CANDIDATES, REFERS
 from service.grammar.sentences import Unsayable
-from service.grammar.tokens import normalise, tokenise
+from service.grammar.setting_talk import setting_of
+from service.grammar.thing_talk import says_verb
+from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
-from sim.actions import Add, Direction, Drive, Landmark, MoveThings, Shift, Where
+from sim.actions import Add, Direction, Drive, Landmark, MoveThings, Reset, Shift, Where
 from sim.types import kind_of
 
 MOVES_THINGS = "v.shift"
@@ -35,9 +38,14 @@ MAX_ALONE = 4
 
 def ask_which_it(language: Language, text: str, topic: Topic, parsed: Understood) -> Ambiguous | None:
     """The question what "it" is where a request takes it for the vehicle; None where that is clear."""
-    if len(parsed.actions) != 1 or len(topic.things) == 1:
+    if len(parsed.actions) != 1:
         return None
     (action,) = parsed.actions
+    if isinstance(action, Reset) and setting_of(topic.actions) is not None and _refers(language, text):
+        # "Reset it" after a setting was spoken of is not sure to mean the road.
+        return _question(language, text, language.data.answers.shall, [action])
+    if len(topic.things) == 1:
+        return None
     drives = isinstance(action, Drive) and action.move in get_args(Direction)
     beside = isinstance(action, Add) and action.where is not None and action.where.side == BESIDE
     if not drives and not (beside and isinstance(action, Add) and action.where and action.where.of is None):
@@ -50,6 +58,11 @@ def ask_which_it(language: Language, text: str, topic: Topic, parsed: Understood
     return _question(language, text, language.data.messages["which"], [*_things_meant(action, topic), action])
 
 
+def _refers(language: Language, text: str) -> bool:
+    edges = language.scan(tokenise(normalise(text), language.data.contractions)).all()
+    return any(edge.concept == REFERS and edge.sense.value == "one" for edge in edges)
+
+
 def _things_meant(action: Action, topic: Topic) -> list[Action]:
     """The request done to each thing that may be meant: those spoken of, or the nearest."""
     wheres = [(kind_of(name), Where(id=name)) for name in topic.things[-MAX_CANDIDATES:]]
@@ -57,7 +70,8 @@ def _things_meant(action: Action, topic: Topic) -> list[Action]:
     if isinstance(action, Drive):
         by = Shift(side=action.move)
         return [MoveThings(kind=kind, count=1, where=where, by=by) for kind, where in wheres]
-    assert isinstance(action, Add) and action.where is not None
+    assert isinstance(action, Add)
+    assert action.where is not None
     marks = [
         Landmark(id=where.id) if where.id else Landmark(kind=kind, nearest=True) for kind, where in wheres
     ]
@@ -65,18 +79,31 @@ def _things_meant(action: Action, topic: Topic) -> list[Action]:
 
 
 def ask_whether(language: Language, text: str, topic: Topic, parsed: Understood) -> Ambiguous | None:
-    """The question whether a word alone with a question mark is a request ("left?"); None where it is none."""
-    if not text.rstrip().endswith("?") or not all(traits_of(each).undo_step for each in parsed.actions):
+    """The question whether a word alone with a question mark is a request: "left?"."""
+    if not all(traits_of(each).undo_step for each in parsed.actions):
         return None
-    tokens = tokenise(normalise(text), language.data.contractions)[:-1]
+    tokens = tokenise(normalise(text), language.data.contractions)
+    if text.rstrip().endswith("?"):
+        tokens = tokens[:-1]
+    elif not _corrects_nothing(language, tokens, topic, parsed):
+        return None
     follows = language.data.answers.beginning(tokens, FOLLOWS)
     joined = follows > 0 and tokens[0].text in language.joiners
     asked = bool(topic.actions) and all(traits_of(each).is_question for each in topic.actions)
-    if len(tokens) - follows > MAX_ALONE or (follows and not joined and not asked):
+    if len([token for token in tokens if token.text.isalnum()]) - follows > MAX_ALONE or (
+        follows and not joined and not asked
+    ):
         return None
-    if any(concept.startswith("v.") for concept in language.concepts(text)):
+    if says_verb(language, text):
         return None
     return _question(language, text, language.data.answers.shall, [*parsed.actions], together=True)
+
+
+def _corrects_nothing(language: Language, tokens: Sequence[Token], topic: Topic, parsed: Understood) -> bool:
+    """Whether a move begins as a correction of something else: "no, to the right" after a cone was added."""
+    moves = all(isinstance(each, Drive) for each in parsed.actions)
+    corrects = language.data.answers.whole(tokens[:1], {}, {}) == NO and len(tokens) > 1
+    return moves and corrects and not any(isinstance(each, Drive) for each in topic.actions)
 
 
 def _question(

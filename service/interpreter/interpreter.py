@@ -296,7 +296,7 @@ def _drops_pending(utterance: Utterance, pending: PendingQuestion | None) -> boo
     chosen = pending is not None and any(choice.actions == actions for choice in pending.choices)
     if chosen or any(isinstance(action, Drop) for action in actions):
         return True
-    asks = all(isinstance(action, Ask) and action.about == "pending" for action in actions)
+    asks = all(isinstance(action, Ask) and action.about in ("pending", "options") for action in actions)
     return utterance.text is not None and not asks
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-from service.actions import Drop
+from service.actions import Action, Ask, Drop, Undo
 from service.grammar import Language as Grammar
 from service.grammar.answers import NoChoice, NoSuchChoice, read_answer
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
@@ -45,7 +46,8 @@ def answered(language: Any, code: str, text: str, parse: Parse, pending: Pending
     if pending is None or not isinstance(language, Grammar):
         return parse
     choices = [Choice(each.text, each.actions) for each in pending.choices]
-    literal = not isinstance(parse, Refused) or code != pending.language
+    corrects = isinstance(parse, Understood) and len(parse.actions) > 1 and isinstance(parse.actions[0], Undo)
+    literal = not (isinstance(parse, Refused) or corrects) or code != pending.language
     answer = read_answer(language, text, choices, literal=literal, asked=pending.text)
     if isinstance(parse, AmbiguousParse) and not isinstance(answer, tuple):
         return parse
@@ -54,8 +56,12 @@ def answered(language: Any, code: str, text: str, parse: Parse, pending: Pending
             return parse
         case NoChoice.DROPPED:
             return Understood(text, (Drop(),))
+        case NoChoice.UNCLEAR if isinstance(parse, Understood) and _asks_options(parse.actions):
+            parameters = {getattr(action, "parameter", None) for each in choices for action in each.actions}
+            about = parameters.pop() if len(parameters) == 1 else None
+            return parse if about is None else Understood(text, (Ask(about="options", parameter=about),))
         case NoChoice.UNCLEAR:
-            return parse if literal else AmbiguousParse(text, pending.question, tuple(choices))
+            return parse if literal or corrects else AmbiguousParse(text, pending.question, tuple(choices))
         case NoSuchChoice(number=number):
             if literal:
                 return parse
@@ -63,3 +69,8 @@ def answered(language: Any, code: str, text: str, parse: Parse, pending: Pending
             return AmbiguousParse(text, f"{said} {pending.question}", tuple(choices))
         case actions:
             return Understood(text, actions)
+
+
+def _asks_options(actions: Sequence[Action]) -> bool:
+    """Whether it is asked what there is to choose from."""
+    return all(isinstance(action, Ask) and action.about == "options" for action in actions)

@@ -1,4 +1,4 @@
-"""Answers about what lies ahead: is a move safe, when do I arrive, do I crash, am I stuck, what would help."""
+"""Answers about what lies ahead: safe moves, the arrival, a crash, being stuck, and what would help."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ class Outlooks:
 
     def _never(self, found: Arrival) -> str:
         planner = self._sayings.planner(planner_of(found.state), "with")
-        if found.confidence.chance and not found.confidence.method == "one_run":
+        if found.confidence.chance and found.confidence.method != "one_run":
             return self._say("arrival", "never_chance", planner=planner)
         return self._say("arrival", "never", planner=planner, end=end_told(self._sayings, found.foresight))
 

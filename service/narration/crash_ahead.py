@@ -30,7 +30,8 @@ class CrashesAhead:
             run = ""
             if found.last is not None:
                 run = self._say("run", seconds=self._seconds(found), what=self._happens(found))
-            return within([Part(0, self._say(f"chance{form}", share=share)), Part(1, run)])
+            key = "chance_all" if seen.crashes == 1.0 else "chance"
+            return within([Part(0, self._say(f"{key}{form}", share=share)), Part(1, run)])
         if found.last is None:
             return self._say(f"none{form}", end=end_told(self._sayings, seen))
         what = self._say(f"one{form}", seconds=self._seconds(found), what=self._happens(found))
@@ -58,8 +59,7 @@ class CrashesAhead:
         if key not in ("swap", "cross"):
             key = "came" if decision.move is Move.STAY else "into" if kind_of(ids[0]).fixed else "met"
         who = Naming(self._sayings, last, as_seen=False).things(ids)
-        forms = {form: self._sayings.move(decision.move, form) for form in ("do", "doing")}
-        return self._say(key, who=who, **forms)
+        return self._say(key, who=who, do=self._sayings.move(decision.move, "do"))
 
     def _free(self, found: CrashAhead) -> str:
         """That no other move was free in the last tick, as it was seen."""

@@ -106,7 +106,7 @@ class Details:
                 if before.move is None
                 else told | {"text": self._sure_of_move(asked, before.move, before.tick)}
             )
-        evidence = self._answer(replace(asked, ask=before)).get("evidence") or {}
+        evidence = self._answer(replace(asked, ask=before, supposes=None)).get("evidence") or {}
         count = evidence.get("reruns", 0)
         if not count:
             return None

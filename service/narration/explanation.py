@@ -25,9 +25,19 @@ class Explained:
         """`sayings`: the language's."""
         self._sayings = sayings
 
-    def text(self, explanation: Explanation, *, detailed: bool = False, most: int = MOST_WORDS) -> str:
-        """Why, or why not, in a few sentences of so many words; `detailed` leaves nothing out for brevity."""
-        telling = _Telling(self._sayings, explanation, detailed=detailed)
+    def text(
+        self,
+        explanation: Explanation,
+        *,
+        detailed: bool = False,
+        most: int = MOST_WORDS,
+        now: int | None = None,
+    ) -> str:
+        """Why, or why not, in a few sentences of so many words; `detailed` leaves nothing out for brevity.
+
+        `now`: the present tick, to say how long ago the decision was; without it the tick itself is said.
+        """
+        telling = _Telling(self._sayings, explanation, detailed=detailed, now=now)
         parts = telling.why() if explanation.about == "why" else telling.why_not()
         told = within([*parts, *telling.imagined(parts)], None if detailed else most)
         return told
@@ -40,8 +50,11 @@ class Explained:
 class _Telling:
     """One explanation on its way into words."""
 
-    def __init__(self, sayings: Sayings, explanation: Explanation, *, detailed: bool) -> None:
+    def __init__(
+        self, sayings: Sayings, explanation: Explanation, *, detailed: bool, now: int | None = None
+    ) -> None:
         self._sayings = sayings
+        self._at = _time_of(sayings, explanation, now)
         self._detailed = detailed
         self._explanation = explanation
         self._decision = explanation.decision
@@ -65,9 +78,9 @@ class _Telling:
                 self._sayings.planner(decision.planner, "id"),
                 self._sayings.fault(decision.fault),
             )
-            return [Part(0, self._say("fact_fault", tick=decision.tick, planner=planner, fault=fault))]
+            return [Part(0, self._say("fact_fault", at=self._at, planner=planner, fault=fault))]
         if decision.asked is not None and not decision.held_back:
-            return [Part(0, self._say("fact_asked", tick=decision.tick, did=self._did(decision.move)))]
+            return [Part(0, self._say("fact_asked", at=self._at, did=self._did(decision.move)))]
         proofs = self._proofs.of_why()
         if decision.measure is not Measure.RANK and decision.asked is None:
             return [Part(0, self._weighed()), *proofs]
@@ -77,7 +90,7 @@ class _Telling:
             return [Part(0, told), Part(2, self._planner_reasons.choice_of_side()), *proofs]
         if decision.held_back and decision.asked is not None:
             asked = self._sayings.move(decision.asked, "do")
-            fact = self._say("fact_held_back", tick=decision.tick, asked=asked)
+            fact = self._say("fact_held_back", at=self._at, asked=asked)
             hindered = [decision.option(decision.asked)]
         else:
             hindered = [option for option in decision.preferred if option.cell is not None]
@@ -96,11 +109,11 @@ class _Telling:
         do = self._sayings.move(foil, "do")
         if decision.asked is not None and not decision.held_back:
             asked = self._sayings.move(decision.asked, "do")
-            return [Part(0, self._say("not_preferred_asked", tick=decision.tick, asked=asked, do=do))]
+            return [Part(0, self._say("not_preferred_asked", at=self._at, asked=asked, do=do))]
         option = decision.option(foil)
         if option.cell is None:
             reason = self._reason(option)
-            return [Part(0, self._say("not_off_road", tick=decision.tick, do=do, reason=reason))]
+            return [Part(0, self._say("not_off_road", at=self._at, do=do, reason=reason))]
         return [Part(0, self._not_made(option, do)), Part(2, self.would()), *self._proofs.of_change()]
 
     def _short(self, reasons: str, hindered: list[Option] | None = None) -> str:
@@ -118,9 +131,9 @@ class _Telling:
     def _fact(self, hindered: list[Option]) -> str:
         decision = self._decision
         if not hindered:
-            return self._say("fact", tick=decision.tick, did=self._did(decision.move))
+            return self._say("fact", at=self._at, did=self._did(decision.move))
         other = self._sayings.move(hindered[0].move, "doing")
-        return self._say("rather", tick=decision.tick, did=self._did(decision.move), other=other)
+        return self._say("rather", at=self._at, did=self._did(decision.move), other=other)
 
     def _not_made(self, option: Option, do: str) -> str:
         decision = self._decision
@@ -131,22 +144,22 @@ class _Telling:
             and self._planner_reasons is not None
             and (but := self._planner_reasons.not_made(option))
         ):
-            return self._say("not_but", tick=decision.tick, but=lower_first(but).rstrip("."))
+            return self._say("not_but", at=self._at, but=lower_first(but).rstrip("."))
         if option.verdict == "free":
             return self._say(
                 "not_preferred",
-                tick=decision.tick,
+                at=self._at,
                 do=do,
                 reason=self._reason(option),
                 preferred=self._sayings.move(decision.move, "name"),
                 free=self._reason(decision.chosen),
             )
-        return self._say("not_blocked", tick=decision.tick, do=do, reasons=self._reason(option))
+        return self._say("not_blocked", at=self._at, do=do, reasons=self._reason(option))
 
     def _weighed(self) -> str:
         """What the move costs in all, and the next best."""
         decision, chosen = self._decision, self._decision.chosen
-        fact = self._say("fact", tick=decision.tick, did=self._did(decision.move))
+        fact = self._say("fact", at=self._at, did=self._did(decision.move))
         if decision.measure is Measure.OWN:
             return self._say("own", fact=fact, planner=self._sayings.planner(decision.planner, "id"))
         if chosen.cost is None:
@@ -173,14 +186,14 @@ class _Telling:
         decision, best = self._decision, self._decision.chosen.cost
         if decision.measure is Measure.OWN:
             return self._say(
-                "not_own", tick=decision.tick, planner=self._sayings.planner(decision.planner, "id")
+                "not_own", at=self._at, planner=self._sayings.planner(decision.planner, "id")
             )
         if option.cost is None or best is None:
-            return self._say("not_dead_end", tick=decision.tick, do=do)
+            return self._say("not_dead_end", at=self._at, do=do)
         more = option.cost - best
         key = f"not_worth_{decision.measure}" if more else "not_even"
         instead = self._sayings.move(decision.move, "name")
-        return self._say(key, tick=decision.tick, do=do, more=self._worth(more), instead=instead)
+        return self._say(key, at=self._at, do=do, more=self._worth(more), instead=instead)
 
     def would(self) -> str:
         """What the foil would have led to."""
@@ -249,3 +262,14 @@ class _Telling:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("why", *keys, **parts)
+
+
+def _time_of(sayings: Sayings, explanation: Explanation, now: int | None) -> str:
+    """When a decision was taken, as the beginning of a sentence: the last one just now, others so long ago."""
+    tick = explanation.decision.tick
+    if now is None:
+        return sayings.say("why", "at", "tick", tick=tick)
+    if now == tick + 1:
+        return sayings.say("why", "at", "now")
+    ago = in_seconds(sayings, now - tick, explanation.moment.config)
+    return sayings.say("why", "at", "ago", seconds=ago)

@@ -40,7 +40,7 @@ class Foils:
         blocked = found.decision.option(ask.instead).reason.blocks and not chosen.reason.blocks
         text = within(
             [
-                Part(0, self._explained.text(found)),
+                Part(0, self._explained.text(found, now=timeline.tick if ask.tick is None else None)),
                 Part(1, self._say("rather", did=did, reason=reason) if blocked else ""),
             ]
         )

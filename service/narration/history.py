@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Final
 
 from service.narration.answerer import Json, plain
+from service.narration.charges import in_seconds
 from service.narration.metrics import Figures
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
@@ -103,7 +104,7 @@ class History:
         soon = call.ttc_s is not None and call.ttc_s <= TOLD_TTC_S
         return self._say(
             "closest_soon" if soon else "closest",
-            tick=call.tick,
+            after=in_seconds(self._sayings, call.before.world.episode_tick, call.before.config),
             who=Naming(self._sayings, call.before).thing(call.id),
             metres=self._sayings.number(round(call.gap_m, 2)),
             seconds=self._sayings.number(round(call.ttc_s or 0, 1)),

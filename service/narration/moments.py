@@ -50,12 +50,12 @@ class Moments:
         last = timeline.tick if ask.until is None else ask.until
         first = max(world.episode_start if ask.tick is None else ask.tick, last - MOST_TICKS)
         if max(first, last) > timeline.tick:
-            facts = {"tick": max(first, last), "now": timeline.tick}
-            return plain(self._sayings, ask, timeline.state, not_so(self._sayings, "no_such_tick", facts))
+            none: dict[str, object] = {"tick": max(first, last), "now": timeline.tick}
+            return plain(self._sayings, ask, timeline.state, not_so(self._sayings, "no_such_tick", none))
         found = riskiest(timeline.between(first, last + 1))
         if found is None:
             return plain(self._sayings, ask, timeline.state, self._say("no_risk"))
-        facts = {
+        facts: dict[str, object] = {
             "when": when(self._sayings, found.before, found.tick, timeline.tick),
             "free": len(found.free),
             "tried": len(found.tried),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import groupby
 
 from service.contract.encode.forecast import way_json
+from service.narration.answer_length import MOST_WORDS
 from service.narration.answerer import Json, plain
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
@@ -34,12 +35,17 @@ class Next:
             return self._ended(run)
         if not way.decisions:
             return self._say("silent", planner=self._sayings.planner(run.config.planner, "id"))
-        told = self._say("let" if way.offered else "next", way=self._way(way))
+        named = len(way.detours)
+        told = self._say("let" if way.offered else "next", way=self._way(way, named))
+        while len(told.split()) > MOST_WORDS and named:  # for whom the last moves are is told when they come
+            named -= 1
+            told = self._say("let" if way.offered else "next", way=self._way(way, named))
         more = way.chance and way.outcome is Outcome.RUNNING
         return f"{told} {self._say('chance')}" if more else told
 
-    def _way(self, way: RouteAhead) -> str:
-        detours = {detour.tick: detour for detour in way.detours}
+    def _way(self, way: RouteAhead, named: int) -> str:
+        """The moves, of the first so many detours with whom they are for."""
+        detours = {detour.tick: detour for detour in way.detours[:named]}
         asked = len(way.state.queue)
         steps = [
             (decision.move, detours.get(decision.tick), place >= asked)
@@ -49,7 +55,7 @@ class Next:
         naming = Naming(self._sayings, way.state, as_seen=False)
         rows = _rows_to_go(way)
         told = []
-        named: tuple[str, ...] = ()
+        spoken_of: tuple[str, ...] = ()
         done = 0
         for (move, _, silent), group in alike:
             members = list(group)
@@ -58,12 +64,12 @@ class Next:
             if detour is not None and detour.sake is DetourReason.YOU and silent:
                 told.append(self._say("waits"))
                 continue
-            if detour is not None and detour.ids and detour.ids == named:
+            if detour is not None and detour.ids and detour.ids == spoken_of:
                 detour = None  # they have been spoken of
             metres = (rows[start] - rows[done]) * way.state.config.cell_m
             seconds = len(members) * way.state.config.step_seconds
             told.append(self._move(move, (len(members), metres, seconds), detour, naming))
-            named = named if detour is None else detour.ids
+            spoken_of = spoken_of if detour is None else detour.ids
         said = self._sayings.chained(told, self._say("then"))
         if way.outcome is Outcome.SUCCESS:
             return self._say("arrives", way=said)

@@ -55,7 +55,11 @@ class Planners:
 
     def _here(self, found: PlannersHere, *, best: bool) -> str:
         """One line for each way to drive, those that were asked about first."""
-        lines = [self._line(found, drives) for drives in _alike(found, found.others)]
+        alike: dict[tuple[str, str], list[PlannerDrive]] = {}
+        for drive in found.others:
+            told_as = self._what(found, drive, own=False), self._end(drive.foresight)
+            alike.setdefault(told_as, []).append(drive)
+        lines = [self._line(found, drives) for drives in alike.values()]
         own = self._line(found, [found.own])
         told = [own, *lines] if best else [*lines, own]
         parts = [Part(0, text) for text in told]
@@ -75,11 +79,11 @@ class Planners:
             names = self._say("driving", planner=names)
         return capital(
             self._say(
-                "line", planners=names, what=self._what(found, first, own), end=self._end(first.foresight)
+                "line", planners=names, what=self._what(found, first, own=own), end=self._end(first.foresight)
             )
         )
 
-    def _what(self, found: PlannersHere, drive: PlannerDrive, own: bool) -> str:
+    def _what(self, found: PlannersHere, drive: PlannerDrive, *, own: bool) -> str:
         path, ahead = drive.foresight.story.path, 0 if own else found.parting(drive)
         if ahead is None or ahead >= len(path):
             return self._say("what", "same")
@@ -170,16 +174,3 @@ class Planners:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("planners", *keys, **parts)
-
-
-def _alike(found: PlannersHere, drives: Sequence[PlannerDrive]) -> list[list[PlannerDrive]]:
-    """The planners by how they are told: those that part from the one that drives alike, and end alike."""
-    groups: dict[object, list[PlannerDrive]] = {}
-    for drive in drives:
-        story, ahead = drive.foresight.story, found.parting(drive)
-        move = None if ahead is None or ahead >= len(story.path) else story.path[ahead]
-        kind = None if story.cause is None else story.cause.kind
-        chance = drive.foresight.chances
-        key = (ahead, move, story.outcome, story.end, kind, story.silent is None, chance)
-        groups.setdefault(key, []).append(drive)
-    return list(groups.values())

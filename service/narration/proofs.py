@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from service.narration.answer_length import MOST_WORDS, Part
+from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from sim.actions import Prefer
@@ -54,8 +55,9 @@ class Proofs:
             flips = [self._without(causes, self._do(move), sole) for move, causes in by_move.items()]
             if more := len(alone) - most:
                 flips.append(self._say("more_alone", "one" if more == 1 else "many", count=more))
-            told = self._say("run_again", flips=self._sayings.listed(flips))
-            if most == 1 or self._detailed or len(told.split()) <= MOST_WORDS // 2:
+            told = self._say("run_again", flips=capital(self._sayings.listed(flips)))
+            room = MOST_WORDS // 2 - len(self._untried().split())
+            if most == 1 or self._detailed or len(told.split()) <= room:
                 return told
         return ""
 

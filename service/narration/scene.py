@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Final
 
 from service.contract.encode.scene import misperception_json, scene_json
+from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, plain
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
@@ -94,11 +95,11 @@ class _Told:
         if outcome is not Outcome.RUNNING:
             word = self._sayings.say("answers", "outcomes", outcome)
             return f"{self._say('ended', outcome=word)} {self._counts()}"
-        told = [self._counts(), self._way()]
+        told = [Part(0, self._counts()), Part(0, self._way())]
         others = [thing for thing in self._scene.seen if thing.ticks is None and thing.rows >= 0]
         if others and len(self._scene.seen) > 1:
-            told.append(self._say("nearest", thing=self._near(others[0])))
-        return " ".join(told)
+            told.append(Part(1, self._say("nearest", thing=self._near(others[0]))))
+        return within(told)
 
     def kind(self, kind: Kind) -> str:
         """Yes or no first; then those ahead, the nearest first, and how many there are besides."""

@@ -44,7 +44,10 @@ class Whys:
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         text = self._explained.text(
-            explanation, detailed=asked.length == "longer", most=most_words(asked.length)
+            explanation,
+            detailed=asked.length == "longer",
+            most=most_words(asked.length),
+            now=timeline.tick if ask.tick is None else None,
         )
         return plain(self._sayings, ask, timeline.state, text) | explanation_json(
             explanation, self._options.texts(explanation.decision)

@@ -125,7 +125,7 @@ def _situation(phase: Phase, explanation: Explanation, sayings: Sayings, draw: r
         ),
         move=explanation.decision.move,
         reason=right,
-        explanation=Explained(sayings).text(explanation),
+        explanation=Explained(sayings).text(explanation, now=explanation.decision.tick + 1),
     )
 
 

@@ -120,14 +120,12 @@ class Conversation:
         self._record_request(outcome.utterance.text, actions, facts, step=step)
         if self._actions == actions:
             self._said_actions = outcome.utterance.actions
-        changing = [fact for fact in facts if isinstance(fact, Applied | Undone)]
-        if changing:
-            last = changing[-1]
+        if others := [fact for fact in facts if not isinstance(fact, Answerable)]:
+            # After anything but an undo "again" is about that.
+            last = others[-1]
             self._undone = isinstance(last, Undone) and not last.again
             if isinstance(last, Undone) and self._taken:
                 self._things = self._taken  # what was taken away is there again, or gone again
-        elif any(not isinstance(fact, Answerable) for fact in facts):
-            self._undone = False  # time has passed, or stands still: "again" is about that
         amounts = [fact for fact in facts if isinstance(fact, Applied) and _moves_things(fact)]
         if amounts:
             if any(isinstance(fact, Undone) for fact in facts):
@@ -144,6 +142,8 @@ class Conversation:
             self._record_change(fact)
         if outcome.answer is not None or any(not isinstance(fact, Answerable) for fact in facts):
             self._explained = None if outcome.answer is None else explained(outcome.answer, actions)
+        if len(self._batch) > 1:
+            self._listed = self._batch  # things added together are counted by themselves
         self._tick = None if outcome.answer is None else tick_told(outcome.answer, actions)
         chosen = outcome.answer is None and outcome.utterance.actions[0] in self._offered
         self._offered = (
@@ -183,7 +183,7 @@ class Conversation:
             self._away = (*(() if taken_back else self._away), away)[-2:]
 
     def record_refused(self, utterance: Utterance) -> None:
-        """Record a request that could not be done: "no, radar" is meant instead of it, and nothing is undone."""
+        """Record a request that could not be done: "no, radar" is meant instead, and nothing is undone."""
         if any(isinstance(action, Undo | Redo | Drop | Chat) for action in utterance.actions):
             return
         self._durable = self._durable or self.durable
@@ -215,7 +215,9 @@ class Conversation:
             self._taken += tuple(thing.id for thing in fact.removed)
             self._things += tuple(name for name in self._before if kind_of(name) == action.kind)
         self._removed = isinstance(action, Remove) or (bool(fact.removed) and not fact.added)
-        if not isinstance(action, Swap) and action.kind != "everything":
+        if isinstance(action, MoveThings):
+            self._kind = None  # "another to lane 2" is not one more
+        elif not isinstance(action, Swap) and action.kind != "everything":
             self._kind = action.by if isinstance(action, Replace) else action.kind
         self._where = _fixed_place(_place_of(action), fact)
 

@@ -33,12 +33,11 @@ class Chances:
     """whether all futures end alike, at the same tick"""
 
 
-def chances(
-    state: SimState, ego: str | None = None, *, seen: bool, part: int = PART
-) -> Chances | None:
+def chances(state: SimState, ego: str | None = None, *, seen: bool, part: int = PART) -> Chances | None:
     """The chances of an ego, the first by default; `seen`: whether it sees who reacts in the coming tick.
 
-    The work is that of a confidence divided by `part`. None where nothing is left to chance, where a person drives, and where a planner does not answer.
+    The work is that of a confidence divided by `part`. None where nothing is left to chance, where a person
+    drives, and where a planner does not answer.
     """
     if state.config.certain or (
         state.ego(ego).mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING

@@ -1,4 +1,4 @@
-"""How it goes on from a moment if the planner drives and nobody says anything: run to the end, with its chance.
+"""How it goes on from a moment if the planner drives and nothing is said: run to the end, with its chance.
 
 Where it is left to chance how others react, the run is one future of many, and the chances come from the same
 futures as confidence (`sim.explain.chances`).

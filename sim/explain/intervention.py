@@ -11,20 +11,22 @@ thing can, but no change of the road takes it away.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
 from sim.actions import Add, Where, WorldAction
 from sim.config import Config
 from sim.decide import announced_before, decide_on, sense
+from sim.explain.effort import WorkSpentError, work_of
 from sim.explain.factors import factors, is_factor, removal, without
 from sim.explain.facts import Counterfactual, QuestionError
 from sim.perceive import Percept, sensor_named
 from sim.plan import Decision
 from sim.session.edits import apply
 from sim.state import SimState
-from sim.types import Cell, Move, is_ego
+from sim.types import Cell, Kind, Move, is_ego
 from sim.world import Thing, World
+from sim.world.grid import board_of
 
 
 def wall(world: World, cell: Cell) -> Add:
@@ -37,11 +39,16 @@ class Intervention:
     """Reruns one decision with changes to the percept, the world or the preferences."""
 
     def __init__(
-        self, state: SimState, decision: Decision, announced: Mapping[str, Move] | None = None
+        self,
+        state: SimState,
+        decision: Decision,
+        announced: Mapping[str, Move] | None = None,
+        most: int | None = None,
     ) -> None:
         """A moment in which a decision is taken (not while a result stands), and that decision.
 
-        `announced`: the moves that its ego knew of, where they are known already.
+        `announced`: the moves that its ego knew of, where they are known already. `most`: the work after
+        which whatever is asked raises `WorkSpentError`.
         """
         self.state = state
         self.decision = decision
@@ -53,7 +60,17 @@ class Intervention:
         """whether not to be seen is the same as not to be there: for it and for who decides before it"""
         self.factors = factors(state.config_of(self.ego))
         self.count = 0
+        self._work, self._most = 0, most
         self._known: dict[tuple[str, frozenset[str]], Move] = {}
+
+    def allow(self, work: int) -> None:
+        """Allow so much work from here on."""
+        if self._most is not None:
+            self._most = self._work + work
+
+    def tried_without(self, name: str) -> Move | None:
+        """The move without this one alone, if that was tried."""
+        return self._known.get(("without", frozenset((name,))))
 
     def without(self, names: Iterable[str]) -> Move:
         """The move had these things not been detected, or these wishes never been said."""
@@ -113,6 +130,26 @@ class Intervention:
         percept = self._look(state, [name for name in gone if is_ego(name)])
         return self._decide(state, percept.without(gone) if gone else percept).move
 
+    def behind_barriers(self, gone: Iterable[str], cells: Collection[int]) -> Move | None:
+        """The move without these and with barriers in these cells, as `after` tells of the actions.
+
+        None where it takes the actions to tell: where sensors err, and in cells that hold anything.
+        """
+        percept = self.percept
+        if not self.faithful or any(
+            cell == percept.ego or cell in percept.movers or cell in percept.hazards for cell in cells
+        ):
+            return None
+        gone = frozenset(gone)
+        seen = percept.without(_things(gone)) if gone else percept
+        barriers = seen.boards[Kind.BARRIER] | board_of(cells)
+        seen = replace(
+            seen,
+            boards=seen.boards.with_kind(Kind.BARRIER, barriers),
+            hazards={**seen.hazards, **dict.fromkeys(cells, Kind.BARRIER.value)},
+        )
+        return self._decide(self._with(without(self.state.config, gone)), seen).move
+
     def counterfactual(self, names: Iterable[str], move: Move) -> Counterfactual:
         """The smallest intervention that removes these names and leads to `move`.
 
@@ -163,8 +200,11 @@ class Intervention:
         return replace(state, world=world, config=config)
 
     def _decide(self, state: SimState, percept: Percept) -> Decision:
+        if self._most is not None and self._work >= self._most:
+            raise WorkSpentError
         self.count += 1
         decision = decide_on(state, percept, self.ego)
+        self._work += work_of(decision, state.config_of(self.ego))
         if decision.timed_out:  # nothing is proved by an answer that did not come
             raise QuestionError("no_answer", planner=decision.planner, fault=decision.fault)
         return decision

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from sim.explain.effort import Effort
 from sim.explain.facts import Explanation, QuestionError, check_ego
 from sim.explain.moments import state_at
 from sim.explain.why_causes import explain_why
@@ -22,33 +23,47 @@ SAID_OF = {
 
 
 def why(
-    timeline: Timeline, tick: int | None = None, move: Move | None = None, *, ego: str | None = None
+    timeline: Timeline,
+    tick: int | None = None,
+    move: Move | None = None,
+    *,
+    ego: str | None = None,
+    effort: Effort = Effort.USUAL,
 ) -> Explanation:
     """Why the latest decision, the one at a tick, or the latest with a move.
 
-    It is that of an ego, the first by default. Raises `QuestionError`.
+    It is that of an ego, the first by default. `effort`: how hard causes are looked for. Raises
+    `QuestionError`.
     """
     check_ego(timeline.state, ego)
     if tick is None and move is not None:
         state, decision = _latest(timeline, SAID_OF.get(move, (move,)), ego)
         if decision is None:
             raise QuestionError("never_made", move=move, ticks=min(timeline.tick, LOOK_BACK_TICKS))
-        return explain_why(state, decision, timeline.announced(state, ego))
+        return explain_why(state, decision, timeline.announced(state, ego), effort)
     state, decision = decision_meant(timeline, tick, ego)
     if move is not None and decision.move not in SAID_OF.get(move, (move,)):
         raise QuestionError("not_that_move", asked=move, made=decision.move, tick=decision.tick)
-    return explain_why(state, decision, timeline.announced(state, ego))
+    return explain_why(state, decision, timeline.announced(state, ego), effort)
 
 
 def why_not(
-    timeline: Timeline, move: Move, tick: int | None = None, *, ego: str | None = None
+    timeline: Timeline,
+    move: Move,
+    tick: int | None = None,
+    *,
+    ego: str | None = None,
+    effort: Effort = Effort.USUAL,
 ) -> Explanation:
-    """Why the latest decision of an ego, or the one at a tick, was not `move`. Raises `QuestionError`."""
+    """Why the latest decision of an ego, or the one at a tick, was not `move`. Raises `QuestionError`.
+
+    `effort`: how hard a change that leads to the move is looked for.
+    """
     check_ego(timeline.state, ego)
     state, decision = decision_meant(timeline, tick, ego)
     if decision.move is move:
         raise QuestionError("was_made", move=move, tick=decision.tick)
-    return explain_why_not(state, decision, move, timeline.announced(state, ego))
+    return explain_why_not(state, decision, move, timeline.announced(state, ego), effort)
 
 
 def contrast(

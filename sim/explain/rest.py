@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
 
+from sim.explain.effort import WorkSpentError
 from sim.explain.facts import Link
 from sim.explain.intervention import Intervention
 from sim.explain.relevance import having_part, tried_singly
@@ -51,24 +53,26 @@ class Rest:
         traits = traits_of(rerun.decision.planner)
         parts = having_part(rerun.percept, traits, list(names))
         most = tried_singly(traits)
-        single = {name for name in parts[:most] if rerun.without([name]) is not fact}
         further = Flipping(rerun)
-        single.update(further.among(parts[most:]))
+        single = {name for name in parts[:most] if further.flips(name)}
+        single.update(further.among([name for name in parts[most:] if rerun.tried_without(name) is None]))
+        single.update(name for name in parts if rerun.tried_without(name) not in (None, fact))
         groups: dict[str, tuple[str, ...]] = {
             name: (name,) for name in parts if name in single and name not in known
         }
         settled = {*single, *(each for group in known.values() for each in group), *known}
         chain: list[Link] = []
         met = [(name, option) for option in hindered for name in option.causes if name not in settled]
-        for name, option in met[:MOST_HELD]:
-            by = [other for other in parts if other in single or other in known]
-            link = _held_by(rerun, name, option, by)
-            if link is not None:
-                chain.append(link)
-            elif name not in groups and (pair := _grouped(rerun, name, option, parts[:most], single)):
-                groups[name] = pair
-            elif name not in groups and (link := _behind(rerun, name, option, by)) is not None:
-                chain.append(link)
+        with suppress(WorkSpentError):
+            for name, option in met[:MOST_HELD]:
+                by = [other for other in parts if other in single or other in known]
+                link = _held_by(rerun, name, option, by)
+                if link is not None:
+                    chain.append(link)
+                elif name not in groups and (pair := _grouped(rerun, name, option, parts[:most], single)):
+                    groups[name] = pair
+                elif name not in groups and (link := _behind(rerun, name, option, by)) is not None:
+                    chain.append(link)
         return Rest(groups, tuple(chain), tuple(further.untried))
 
 
@@ -89,6 +93,14 @@ class Flipping:
         self.untried: list[str] = []
         """things that were not looked at, for want of runs"""
 
+    def flips(self, name: str) -> bool:
+        """Whether this one flips the decision by itself; what there is no work left for is not tried."""
+        try:
+            return self._rerun.without([name]) is not self._rerun.decision.move
+        except WorkSpentError:
+            self.untried.append(name)
+            return False
+
     def among(self, names: Sequence[str]) -> list[str]:
         """Those of the names that flip the decision by themselves."""
         if not names:
@@ -97,7 +109,11 @@ class Flipping:
             self.untried += names
             return []
         self._runs -= 1
-        without = self._rerun.decision_without(names)
+        try:
+            without = self._rerun.decision_without(names)
+        except WorkSpentError:
+            self.untried += names
+            return []
         if not self._another_is_as_good(without):
             self.untried += [name for name in names if name in self._beside_movers]
             return []

@@ -1,7 +1,7 @@
 """Whether a move is safe: what it meets, and what comes of driving on after it, both run.
 
-A move is safe if it meets nothing and no future after it ends in a crash. The step itself is judged by what is
-there, whatever the sensor shows of it.
+A move is safe if it meets nothing and no future after it ends in a crash. The step itself is judged by what
+is there, whatever the sensor shows of it.
 """
 
 from __future__ import annotations

@@ -13,21 +13,21 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Final, get_args
 
-from sim.actions import Prefer, Wish, WorldAction
+from sim.actions import Add, Prefer, Wish, WorldAction
+from sim.explain.effort import RESERVE, Effort, WorkSpentError
 from sim.explain.factors import is_factor
 from sim.explain.intervention import Intervention, wall
 from sim.explain.relevance import having_part
+from sim.oracle.ddmin import ddmin
 from sim.plan import Measure, traits_of
 from sim.session.errors import EditError
-from sim.types import Move
+from sim.types import Cell, Move
 
 MOST_EDITS: Final = 3
 """Edits of the largest change that is looked for."""
-TRIES_QUICK: Final = 400
-"""Changes that are tried for an answer where a decision takes a few hundredths of a millisecond."""
-TRIES_SEARCHING: Final = 20
-"""The same where a decision searches to the goal."""
-MOST_CUT: Final = 6
+MOST_TRIES: Final = 400
+"""Changes that are tried for an answer; where decisions search to the goal, their work ends it sooner."""
+MOST_CUT: Final = 7
 """Edits of a change of which every part is tried."""
 
 
@@ -37,6 +37,15 @@ class Edit:
 
     gone: str = ""
     actions: tuple[WorldAction, ...] = ()
+
+    @property
+    def barred(self) -> tuple[Cell, ...]:
+        """The cells that barriers are put into."""
+        return tuple(
+            action.where.cell
+            for action in self.actions
+            if isinstance(action, Add) and action.kind == "barrier" and action.where and action.where.cell
+        )
 
     @property
     def of_wishes(self) -> bool:
@@ -62,12 +71,15 @@ class SmallestChange:
 class ChangeSearch:
     """Changes that lead to one move, of one decision."""
 
-    def __init__(self, rerun: Intervention, foil: Move, names: Sequence[str]) -> None:
+    def __init__(
+        self, rerun: Intervention, foil: Move, names: Sequence[str], effort: Effort = Effort.USUAL
+    ) -> None:
         """`names`: everything that was seen and wished, the most telling first."""
+        self._effort = effort
         self._rerun = rerun
         self._foil = foil
         traits = traits_of(rerun.decision.planner)
-        self._most = TRIES_QUICK if traits.quick else TRIES_SEARCHING
+        self._most = effort.of(MOST_TRIES)
         self._edits = list(self._single_edits(having_part(rerun.percept, traits, list(names))))
         self._known: dict[frozenset[Edit], Move | None] = {}
 
@@ -85,12 +97,26 @@ class ChangeSearch:
         edits = tuple(edits)
         key = frozenset(edits)
         if key not in self._known:
-            change, undetected = self.change(edits)
-            try:
-                self._known[key] = self._rerun.after(change, undetected)
-            except EditError:  # something is there that was not seen
-                self._known[key] = None
+            self._known[key] = self._made(edits)
         return self._known[key]
+
+    def _made(self, edits: Edits) -> Move | None:
+        if not any(isinstance(action, Prefer) for edit in edits for action in edit.actions):
+            road = self._rerun.state.world.road
+            cells = [road.index(cell) for edit in edits for cell in edit.barred]
+            if len(cells) == sum(len(edit.actions) for edit in edits):
+                made = self._rerun.behind_barriers([edit.gone for edit in edits if edit.gone], cells)
+                if made is not None:
+                    return made
+        return self._done(edits)
+
+    def _done(self, edits: Edits) -> Move | None:
+        """The move after the actions themselves."""
+        change, undetected = self.change(edits)
+        try:
+            return self._rerun.after(change, undetected)
+        except EditError:  # something is there that was not seen
+            return None
 
     def change(self, edits: Iterable[Edit]) -> tuple[tuple[WorldAction, ...], tuple[str, ...]]:
         """The actions of these edits, and what must go undetected since no action takes it away."""
@@ -105,24 +131,42 @@ class ChangeSearch:
     def smallest(self, fallback: Iterator[Edits]) -> SmallestChange:
         """The smallest change that is found; `fallback`: larger ones to cut down where the tries run out."""
         searched, most = 0, self._most
-        for size in range(1, MOST_EDITS + 1):
-            for edits in combinations(self._edits, size):
-                if sum(edit.of_wishes for edit in edits) > 1:
-                    continue
-                if self.tried >= most:
-                    return self._cut_down(fallback, searched)
-                if self.reaches(edits):
-                    return SmallestChange(edits, searched, self.tried)
-            searched = size
+        try:
+            for size in range(1, MOST_EDITS + 1):
+                for edits in combinations(self._edits, size):
+                    if sum(edit.of_wishes for edit in edits) > 1:
+                        continue
+                    if self.tried >= most:
+                        return self._cut_down(fallback, searched)
+                    if self.reaches(edits) and self._done(edits) is self._foil:
+                        return SmallestChange(edits, searched, self.tried)
+                searched = size
+        except WorkSpentError:
+            pass
         return self._cut_down(fallback, searched)
 
     def _cut_down(self, fallback: Iterator[Edits], searched: int) -> SmallestChange:
-        for edits in fallback:
-            if self.reaches(edits):
-                sizes = range(1, len(edits) if len(edits) <= MOST_CUT else 0)
-                parts = (part for size in sizes for part in combinations(edits, size))
-                return SmallestChange(next(filter(self.reaches, parts), edits), searched, self.tried)
+        """A part of a larger change, of which nothing can be spared."""
+        self._rerun.allow(self._effort.of(RESERVE))
+        try:
+            for edits in fallback:
+                if self.reaches(edits):
+                    found = self._without_spare(edits)
+                    self._rerun.allow(self._effort.of(RESERVE))
+                    if self._done(found) is self._foil:
+                        return SmallestChange(found, searched, self.tried)
+        except WorkSpentError:
+            pass
         return SmallestChange(None, searched, self.tried)
+
+    def _without_spare(self, edits: Edits) -> Edits:
+        """A smallest part that still reaches the move; of many edits, one of which none can be spared."""
+        if len(edits) > MOST_CUT:
+            edits = tuple(ddmin(edits, self.reaches))
+        if len(edits) > MOST_CUT:
+            return edits
+        parts = (part for size in range(1, len(edits)) for part in combinations(edits, size))
+        return next(filter(self.reaches, parts), edits)
 
     def _single_edits(self, names: list[str]) -> Iterator[Edit]:
         """What is in the move's way first, then the cells that come before it, wishes, all other things."""

@@ -21,6 +21,7 @@ from dataclasses import replace
 from itertools import combinations
 from typing import Protocol
 
+from sim.explain.effort import FOR_CAUSES, RESERVE, Effort, WorkSpentError
 from sim.explain.factors import is_factor
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.intervention import Intervention, wall
@@ -45,19 +46,24 @@ MOST_PAIRED = 24
 
 
 def explain_why(
-    state: SimState, decision: Decision, announced: Mapping[str, Move] | None = None
+    state: SimState,
+    decision: Decision,
+    announced: Mapping[str, Move] | None = None,
+    effort: Effort = Effort.USUAL,
 ) -> Explanation:
     """Why `decision` was taken in a state, by its ego. `announced`: as for `Intervention`."""
-    rerun = Intervention(state, decision, announced)
+    rerun = Intervention(state, decision, announced, effort.of(FOR_CAUSES))
     fact = decision.move
     names = [*rerun.factors, *by_salience(rerun.percept, decision)]
-    enough, groups, minimal = minimal_sufficient_set(rerun, fact, names)
     if decision.held_back:
         hindered = [option for option in decision.options if option.move is decision.asked]
     else:
         hindered = list(decision.preferred)
-    causes = _with_what_the_rest_blocks(rerun, rank_causes(rerun, fact, rerun.seen, hindered, groups))
+    groups, verified = _sufficient(rerun, fact, names)
+    rerun.allow(effort.of(RESERVE))
     rest = Rest.of(rerun, names, hindered, groups)
+    rerun.allow(effort.of(RESERVE))
+    causes = _with_what_the_rest_blocks(rerun, rank_causes(rerun, fact, rerun.seen, hindered, groups))
     also = rank_causes(rerun, fact, rerun.seen, hindered, rest.groups)
     told = dict.fromkeys(cause.group for cause in (*causes, *also) if cause.group)
     flips = [rerun.counterfactual(group, rerun.without(group)) for group in told]
@@ -68,11 +74,7 @@ def explain_why(
         decision=decision,
         foil=foil,
         causes=causes,
-        verified=Verified(
-            necessary=all(cause.necessary for cause in causes),
-            sufficient=rerun.keeping(enough) is fact,
-            minimal=minimal,
-        ),
+        verified=verified,
         counterfactuals=tuple(flips or _had_it_been_blocked(rerun, decision)),
         stakes=None,
         reruns=rerun.count,
@@ -80,6 +82,18 @@ def explain_why(
         chain=rest.chain,
         untried=rest.untried,
     )
+
+
+def _sufficient(
+    rerun: Intervention, fact: Move, names: list[str]
+) -> tuple[dict[str, tuple[str, ...]], Verified]:
+    """The groups of a minimal sufficient set; none, and nothing claimed, where the work did not reach."""
+    try:
+        enough, groups, minimal = minimal_sufficient_set(rerun, fact, names)
+        necessary = all(group == (name,) for name, group in groups.items())
+        return groups, Verified(necessary, sufficient=rerun.keeping(enough) is fact, minimal=minimal)
+    except WorkSpentError:
+        return {}, Verified(None, None, None)
 
 
 def _with_what_the_rest_blocks(rerun: Intervention, causes: tuple[Cause, ...]) -> tuple[Cause, ...]:
@@ -125,7 +139,7 @@ def _had_it_been_blocked(rerun: Intervention, decision: Decision) -> list[Counte
     change = (wall(rerun.state.world, decision.chosen.cell),)
     try:
         return [Counterfactual(change, rerun.after(change))]
-    except EditError:  # something is there that was not seen
+    except (EditError, WorkSpentError):  # something is there that was not seen
         return []
 
 

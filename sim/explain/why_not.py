@@ -10,9 +10,11 @@ it, is the move asked about.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 
 from sim.actions import Add
 from sim.explain.alternatives import stakes
+from sim.explain.effort import FOR_CHANGES, RESERVE, Effort, WorkSpentError
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.intervention import Intervention, wall
 from sim.explain.smallest_change import ChangeSearch, Edit, Edits, SmallestChange
@@ -26,19 +28,26 @@ MAX_ROUNDS = 8
 
 
 def explain_why_not(
-    state: SimState, decision: Decision, foil: Move, announced: Mapping[str, Move] | None = None
+    state: SimState,
+    decision: Decision,
+    foil: Move,
+    announced: Mapping[str, Move] | None = None,
+    effort: Effort = Effort.USUAL,
 ) -> Explanation:
     """Why `foil` was not the move of `decision` in a state. `announced`: as for `Intervention`."""
-    rerun = Intervention(state, decision, announced)
-    cleared, flips = [], []
+    rerun = Intervention(state, decision, announced, effort.of(FOR_CHANGES))
+    cleared: list[str] = []
+    flips: list[Counterfactual] = []
     found = SmallestChange(None, 0, 0)
     if decision.option(foil).cell is not None and (decision.asked is None or decision.held_back):
         names = [*rerun.factors, *by_salience(rerun.percept, decision)]
-        search = ChangeSearch(rerun, foil, names)
+        search = ChangeSearch(rerun, foil, names, effort)
         found = search.smallest(_larger(rerun, search, decision, foil))
+        rerun.allow(effort.of(RESERVE))
         if found.edits is None:
-            cleared = _cleared(rerun, decision, foil)
-            flips = [rerun.counterfactual(cleared, rerun.without(cleared))] if cleared else []
+            with suppress(WorkSpentError):
+                cleared = _cleared(rerun, decision, foil)
+                flips = [rerun.counterfactual(cleared, rerun.without(cleared))] if cleared else []
         else:
             cleared = [edit.gone for edit in found.edits if edit.gone]
             change, undetected = search.change(found.edits)
@@ -147,5 +156,6 @@ def _causes(rerun: Intervention, foil: Move, cleared: Sequence[str], freed: bool
 def _verified(rerun: Intervention, foil: Move, cleared: Sequence[str], freed: bool) -> Verified:
     if not cleared or not freed:
         return Verified(None, None, None)
+    rerun.allow(len(cleared) * RESERVE)
     spare = any(rerun.without([other for other in cleared if other != name]) is foil for name in cleared)
     return Verified(necessary=not spare, sufficient=True, minimal=not spare)

@@ -1,8 +1,8 @@
 """What a search has shown of the ticks ahead, kept for the decisions that follow on the same road.
 
-A drive asks again at every tick. As long as everything goes on as was foretold, what was found of a later tick
-holds: its costs and bounds are looked up, and not searched for again. A forecast follows on an earlier one if
-after its first tick everything stands where the earlier one had it then; from there on both are the same.
+A drive asks again at every tick. As long as everything goes on as was foretold, what was found of a later
+tick holds: its costs and bounds are looked up, and not searched for again. A forecast follows on an earlier
+one if after its first tick everything stands where the earlier one had it then; from there on both are alike.
 """
 
 from __future__ import annotations
@@ -58,9 +58,9 @@ def continued(
         return None
     for known in _STORE.latest.get(search, ()):
         ahead = forecast.episode_tick - known.forecast.episode_tick
-        if 0 <= ahead < limit + ahead == known.limit and known.weights == weights:
-            if _follows(forecast, known.forecast, ahead):
-                return known, ahead
+        same = known.weights == weights and known.limit == limit + ahead
+        if ahead >= 0 and same and _follows(forecast, known.forecast, ahead):
+            return known, ahead
     return None
 
 

@@ -1,4 +1,4 @@
-"""Where no way leads to the goal: from which cells it could still be reached, and in which one can keep clear.
+"""Where no way leads to the goal: from which cells it could still be reached, and where one can keep clear.
 
 Structure: two sweeps backwards through all ticks that are left, by whole boards. They are kept
 (`sim.search.continued`), so that a vehicle that is shut in looks up at every tick what else it would have to

@@ -80,7 +80,7 @@ def test_asking_why(visit: Visit) -> None:
     text = answer.locator(".reply").inner_text()
     assert "I moved diagonally left rather than going forward" in text
     assert "a barrier blocked the cell ahead" in text
-    assert "Run again without it, I go forward." in text
+    assert "Without it I would go forward." in text
     expect(answer.locator(".proof")).to_contain_text("Proved by re-simulation")
     expect(answer.locator(".proof")).to_contain_text("necessary")
     expect(answer.locator(".proof")).to_contain_text("sufficient")

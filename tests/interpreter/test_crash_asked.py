@@ -26,13 +26,36 @@ async def test_the_latest_crash_is_explained_when_the_next_road_has_begun(talk: 
         "I have not crashed: no episode has ended yet."
     )
     await talk.client.post(f"/api/v1/sessions/{session}/step", json={"ticks": 30})
-    for question in ("why did you crash?", "who hit whom?", "could you have avoided it?", "what went wrong?"):
+    for question in ("why did you crash?", "who hit whom?", "what went wrong?"):
         told = await asked(talk, session, question)
         assert str(told["text"]).startswith("I crashed at tick 20: I stayed")
         assert (told["question"], told["about"]) == ("Why did you crash?", "why")
     assert "crashed" not in str((await asked(talk, session, "why did you do that?"))["text"])
     at_tick = await asked(talk, session, "why did you crash at tick 19?")
     assert at_tick["question"] == "Why did you crash at tick 19?"
+
+
+async def test_blame_is_answered_by_itself_yes_or_no_first(talk: Talk) -> None:
+    session = await made(talk)
+    assert "not crashed" in str((await asked(talk, session, "whose fault was it?"))["text"])
+    await talk.client.post(f"/api/v1/sessions/{session}/step", json={"ticks": 30})
+    avoidable = await asked(talk, session, "could you have avoided it?")
+    assert (avoidable["about"], avoidable["what"]) == ("blame", "avoidable")
+    assert str(avoidable["text"]).startswith("Yes: ")
+    assert str((await asked(talk, session, "was it inevitable?"))["text"]).startswith("No: ")
+    assert str((await asked(talk, session, "whose fault was it?"))["text"]).startswith("Both: ")
+    late = str((await asked(talk, session, "when was it too late?"))["text"])
+    assert late.startswith("It was too late after tick 1")
+
+
+async def test_what_lies_ahead_goes_on_with_another_move(talk: Talk) -> None:
+    session = await made(talk)
+    safe = await asked(talk, session, "is it safe to go left?")
+    assert (safe["what"], safe["move"]) == ("safe", "left")
+    dangerous = await asked(talk, session, "is it dangerous to go left?")
+    assert str(dangerous["text"]).split(":")[0] != str(safe["text"]).split(":")[0]
+    here = await asked(talk, session, "what would A* do here?")
+    assert str(here["text"]).startswith("A*: ")
 
 
 async def test_it_is_answered_among_other_things_that_are_done(talk: Talk) -> None:

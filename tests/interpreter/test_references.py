@@ -268,9 +268,17 @@ async def test_what_is_not_done_changes_no_topic(talk: Talk, text: str, more: Js
     before = talk.topic
     await talk.post(text, **more)
     after = talk.topic
-    for name in ("things", "added", "actions", "undone", "kind", "removed", "where"):
+    for name in ("things", "added", "undone", "kind", "removed", "where"):
         assert getattr(after, name) == getattr(before, name)
     assert before.things == (B1, B2)
+
+
+async def test_a_correction_is_of_what_could_not_be_done(talk: Talk) -> None:
+    await talk.say("add two cones in the left lane")
+    refused = await talk.post("add 9999 potholes")
+    assert refused.status_code == 422
+    done = (await talk.post("no, three")).json()
+    assert done["actions"] == [{"do": "add", "kind": "pothole", "count": 3}]
 
 
 async def test_two_sessions_never_share_a_topic(talk: Talk) -> None:

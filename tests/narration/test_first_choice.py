@@ -50,5 +50,5 @@ def test_what_a_first_choice_hangs_on_is_named(monkeypatch: pytest.MonkeyPatch) 
     assert [cause["id"] for cause in told["causes"]] == ["pothole-1"]
     assert told["text"] == (
         "At tick 0 I moved left: that is my first choice, and the cell to my left was free. "
-        "Run again without the pothole 10 m ahead, I go forward."
+        "Without the pothole 10 m ahead I would go forward."
     )

@@ -220,6 +220,13 @@ def said(narrator: Narrator, draw: random.Random, timeline: Timeline) -> Iterato
         *(Ask(about="scene", kind=kind.value) for kind in PLACEABLE),
         Ask(about="metrics", metric=draw.choice(["crashes", "successes", "steps", "moves", "distance"])),
         Ask(about="what_if", change=(change(draw),)),
+        Ask(about="outlook", what="safe", move=draw.choice(list(Move))),
+        *(
+            Ask(about="outlook", what=what)
+            for what in draw.sample(["arrival", "crash", "stuck", "avoid_how"], 2)
+        ),
+        *(Ask(about="blame", what=what) for what in ("fault", "too_late", "foreseen", "avoidable")),
+        *(Ask(about="planners", what=what) for what in draw.sample(["compare", "character", "own"], 2)),
     ]
     for ask in asks:
         supposes = "crash" if ask == Ask(about="why") and draw.random() < 0.3 else None

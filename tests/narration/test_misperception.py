@@ -52,8 +52,8 @@ def test_what_was_imagined_is_said_not_to_have_been_there() -> None:
     timeline = driven("ghost")
     told = answer(timeline, about="why")
     assert told["text"] == (
-        "At tick 0 I moved diagonally left rather than going forward, "
-        "because I saw a pothole right ahead, which was not there. Run again without seeing it, I go forward."
+        "Just now I moved diagonally left rather than going forward, "
+        "because I saw a pothole right ahead, which was not there. Without seeing it I would go forward."
     )
     (cause,) = told["causes"]  # type: ignore[misc]
     assert (cause["id"], cause["real"]) == ("pothole-p1", False)
@@ -66,9 +66,9 @@ def test_what_was_imagined_is_said_not_to_have_been_there() -> None:
     }
     told = answer(timeline, about="why_not", move=Move.FORWARD)
     assert told["text"] == (
-        "At tick 0 I did not go forward, because I saw a pothole right ahead, which was not there. "
+        "Just now I did not go forward, because I saw a pothole right ahead, which was not there. "
         "That way I arrive after 2 s, just as it is. "
-        "Run again without seeing the pothole right ahead, I go forward."
+        "Without seeing the pothole right ahead I would go forward."
     )
 
 

@@ -70,8 +70,8 @@ def test_a_why_names_its_causes_and_the_flip() -> None:
     timeline.advance()
     told = answer(timeline, about="why")
     assert told["text"] == (
-        "At tick 0 I moved left rather than going forward, because there was a pothole in the cell ahead. "
-        "Run again without it, I go forward."
+        "Just now I moved left rather than going forward, because there was a pothole in the cell ahead. "
+        "Without it I would go forward."
     )
     assert told["counterfactual"] == {
         "at_tick": 0,
@@ -87,8 +87,8 @@ def test_a_why_names_its_causes_and_the_flip() -> None:
         ({"about": "why", "tick": 999}, "There is no tick 999 yet: this is tick 3."),
         ({"about": "why", "tick": 3}, "The decision of tick 3 has not been taken yet"),
         ({"about": "why", "move": Move.STAY}, "I did not stay in the last 3 ticks."),
-        ({"about": "why_not", "move": Move.FORWARD}, "But I did: at tick 2 I went forward."),
-        ({"about": "status"}, "I am in lane 5 of row 26, 26 rows from the goal (130 m); tick 3, episode 1."),
+        ({"about": "why_not", "move": Move.FORWARD}, "But that is what I did: I went forward."),
+        ({"about": "status"}, "I am in lane 5, 26 rows (130 m) from the goal."),
     ],
 )
 def test_questions_about_what_is_not_so_are_answered_exactly(ask: dict[str, object], words: str) -> None:

@@ -82,7 +82,7 @@ def test_why(rows: tuple[str, ...], said: str) -> None:
 def test_what_shuts_a_way_is_told_and_its_removal_makes_the_move() -> None:
     told = why_not(DEAD_END, Move.FORWARD)
     assert "I could have, but the cell ahead led into a dead end." in told
-    assert told.endswith("I go forward.")
+    assert told.endswith("I would go forward.")
     decision = decide(moment(DEAD_END))
     assert decision is not None
     explanation = explain_why_not(moment(DEAD_END), decision, Move.FORWARD)

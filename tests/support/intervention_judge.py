@@ -69,7 +69,8 @@ def wrong_claims(explanation: Explanation, *, parts: bool) -> Iterator[str]:
     for flip in explanation.counterfactuals:
         if move_after(state, flip.change) is not flip.move:
             yield f"after {flip.change} it is not {flip.move}"
-    if explanation.verified.sufficient is not (move_after(state, keeping(causes, state)) is fact):
+    sufficient = explanation.verified.sufficient
+    if sufficient is not None and sufficient is not (move_after(state, keeping(causes, state)) is fact):
         yield f"{causes} are not enough"
     if parts and explanation.verified.minimal and len(causes) <= MOST_PARTS:
         for size in range(len(causes)):

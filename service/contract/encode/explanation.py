@@ -100,7 +100,7 @@ def _cause_json(cause: Cause, explanation: Explanation) -> Json:
 
 
 def _shown_json(explanation: Explanation) -> Json:
-    """What to point at while it is read: the causes, what blocked the foil, and the chain, where they stood."""
+    """What to point at while it is read, where it stood: the causes, what blocked the foil, the chain."""
     ids = [cause.id for cause in (*explanation.causes, *explanation.also) if cause.cell is not None]
     ids += [name for link in explanation.chain for name in (link.blocker, link.by)]
     if explanation.foil is not None:

@@ -1,4 +1,4 @@
-"""Other moves of the past, patterns, the riskiest moment, moments alike: each claim by a re-run of its own."""
+"""Other moves, patterns, the riskiest moment and moments alike: each claim held to a re-run of its own."""
 
 from __future__ import annotations
 

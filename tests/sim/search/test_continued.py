@@ -44,11 +44,14 @@ def test_decisions_of_a_drive_are_those_of_each_moment_by_itself(planner: str) -
         state = timeline.state
         forget()
         begins = [state, *(after_move(state, move) for move in (Move.FORWARD, Move.STAY))]
-        ticks = [each for begin in begins for each in rollout(begin) if begin.world.outcome is Outcome.RUNNING]
+        ticks = [
+            each for begin in begins for each in rollout(begin) if begin.world.outcome is Outcome.RUNNING
+        ]
         for before, tick in ticks:
             forget()
             alone = decide(before)
-            assert alone is not None and tick.decision is not None
+            assert alone is not None
+            assert tick.decision is not None
             assert (alone.move, alone.options) == (tick.decision.move, tick.decision.options)
             looked += 1
     assert looked > 300
@@ -65,6 +68,7 @@ def test_a_later_tick_is_looked_up_only_while_all_goes_on_as_foretold() -> None:
     expected = next(iter(later.steps.values())).forecast
     limit = steps_left(config, expected.episode_tick)
     found = continued("swept", expected, weights(config), limit)
-    assert found is not None and found[1] == expected.episode_tick - forecast.episode_tick
+    assert found is not None
+    assert found[1] == expected.episode_tick - forecast.episode_tick
     assert continued("swept", expected, weights(config.with_parts(preferences=("cautious",))), limit) is None
     assert continued("swept", expected, weights(config), limit - 1) is None

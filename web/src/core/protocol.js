@@ -42,6 +42,7 @@
  * @property {{change: Action[], decision: Move, at_tick?: number, actions?: undefined} | null} counterfactual  the first change that flips it
  * @property {{at_tick: number, actions?: Action[], move?: Move, change?: undefined}} [play]  what to do to a fork to see a what-if, or the move to make in it
  * @property {{ids: string[], cells: Cell[]}} [shown]  what to point at while it is read
+ * @property {object} [quiz]  of "quiz me": the situations to predict
  */
 
 /** @typedef {Omit<wire.CommandResult, "answer"> & {answer: Answer | null}} CommandResult */

@@ -139,7 +139,7 @@ export interface Answer {
 /** A question; which keys belong to which `about` is the contract's table. */
 export interface Ask {
   do: "ask";
-  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending" | "detail" | "other" | "pattern" | "outlook" | "blame" | "planners";
+  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending" | "detail" | "other" | "pattern" | "outlook" | "blame" | "planners" | "quiz";
   move?: Move | null;
   instead?: Move | null;
   tick?: number | null;

@@ -24,6 +24,7 @@ import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
 import { createSchematic } from "./schematic.js";
 import { createSessionMenu } from "../timeline/sessionMenu.js";
+import { createQuizLoader } from "../talk/quizLoader.js";
 import { createReader } from "../talk/speech.js";
 import { createStatus } from "./status.js";
 import { createTalk } from "../talk/conversation.js";
@@ -76,6 +77,7 @@ export function createPanels(page) {
     createOccupancy(byId("occupancy")),
     createMetrics(byId("metrics"), page),
     createReader(),
+    createQuizLoader(page),
     createPaletteLoader(/** @type {HTMLDialogElement} */ (byId("palette")), page),
     createHelpLoader(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
   ];

@@ -1,0 +1,56 @@
+"""How much work an answer may take before it says what has been found so far.
+
+Work is counted in what decisions look through and never by the clock, so the same question has the same
+answer everywhere. Asked to go on, an answer begins again with more.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Final
+
+from sim.config import Config
+from sim.plan import Decision, Measure, traits_of
+from sim.search.costs import weights
+
+FOR_CAUSES: Final = 1_500
+"""Work of looking for causes; a unit is some ten microseconds."""
+FOR_CHANGES: Final = 1_500
+"""Work of looking for a change."""
+RESERVE: Final = 700
+"""Work of what is tried last, when all else is spent."""
+MORE: Final = 40
+"""So many times the work where an answer is asked to go on."""
+
+_DECISION: Final = 4
+"""Work of a decision that looks no further than the next tick."""
+_TICK: Final = {Measure.TICKS: 1, Measure.COST: 4}
+"""Work of each tick of a way to the goal, by what is weighed."""
+_NO_WAY: Final = 100
+"""Ticks that count for a decision that finds no way to the goal."""
+
+
+class Effort(StrEnum):
+    """How hard an answer is looked for."""
+
+    USUAL = "usual"
+    MORE = "more"
+
+    def of(self, work: int) -> int:
+        """The work that is allowed, where it usually is `work`."""
+        return work if self is Effort.USUAL else MORE * work
+
+
+class WorkSpentError(Exception):
+    """The work that an answer may take is done; what was found before holds."""
+
+
+def work_of(decision: Decision, config: Config) -> int:
+    """The work of a decision, estimated by what it found: how long it really took hangs on what was kept."""
+    of_tick = _TICK.get(decision.measure, 0)
+    cost = decision.chosen.cost
+    if not of_tick or traits_of(decision.planner).quick:
+        return _DECISION
+    if cost is None:
+        return _DECISION + of_tick * _NO_WAY
+    return _DECISION + of_tick * int(cost / (weights(config).tick if decision.measure is Measure.COST else 1))
