@@ -21,6 +21,9 @@ from service.yaml_files import read_yaml
 _VERBS = ("v.", "want", "there_be", "q.")
 """Beginnings of the concepts of words that say what is to be done or known."""
 
+_LEANING = "detail"
+"""What questions are about that go on with the last explanation."""
+
 _ASIDE = "q.tell"
 """That of words beside a question, some of which stand in requests too: "please", "at"."""
 
@@ -66,7 +69,7 @@ class Sayings:
         return tuple(
             saying
             for saying in self.all
-            if all(action["do"] != "chat" for action in saying.actions)
+            if all(action["do"] != "chat" and action.get("about") != _LEANING for action in saying.actions)
             and not any(each.startswith(aside) for each in self._language.concepts(saying.text))
         )
 
