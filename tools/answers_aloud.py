@@ -2,7 +2,7 @@
 
     python -m tools.answers_aloud [--answers 120] [--seed 1] [--language en]
 
-The questions are asked of sessions of all planners, densities and courtesies, while driving and after the end.
+Questions are asked of drives of all planners, densities and courtesies, under way and at their end.
 Counted are answers of more than 60 words and of names of code, ticks and raw costs.
 """
 
@@ -26,18 +26,36 @@ from sim.types import Outcome
 
 QUESTIONS = {
     "running": (
-        "why did you do that?", "why didn't you go left?", "why not right?", "what if you had gone straight?",
-        "what will you do next?", "what would it take for you to go left?", "where are you?",
-        "what is in front of you?", "how sure are you that you'll arrive?", "is it safe to go left?",
-        "when will we arrive?", "what was the riskiest moment so far?", "summarise this trip",
-        "what would A* do here?", "are you stuck?", "what happened between 1 and 4?", "why left instead of right?",
+        "why did you do that?",
+        "why didn't you go left?",
+        "why not right?",
+        "what if you had gone straight?",
+        "what will you do next?",
+        "what would it take for you to go left?",
+        "where are you?",
+        "what is in front of you?",
+        "how sure are you that you'll arrive?",
+        "is it safe to go left?",
+        "when will we arrive?",
+        "what was the riskiest moment so far?",
+        "summarise this trip",
+        "what would A* do here?",
+        "are you stuck?",
+        "what happened between 1 and 4?",
+        "why left instead of right?",
     ),
     "ended": (
-        "why did you crash?", "what was the closest call?", "whose fault was it?", "could you have avoided it?",
-        "when was it too late?", "did you see it coming?", "summarise this trip", "why did you do that?",
+        "why did you crash?",
+        "what was the closest call?",
+        "whose fault was it?",
+        "could you have avoided it?",
+        "when was it too late?",
+        "did you see it coming?",
+        "summarise this trip",
+        "why did you do that?",
         "compare the planners",
     ),
-}  # fmt: skip
+}
 MOST_WORDS = 60
 _CODE = re.compile(r"\b(?:vehicle|pothole|barrier|pedestrian|av)-\d+|\b\w+_\w+\b|[{}<>]|\bNone\b|\bTrue\b")
 _TICK = re.compile(r"\bticks?\b", re.IGNORECASE)
@@ -101,8 +119,9 @@ def main() -> int:
             print(f"{question}  [{lengths[-1]}{'; ' + '; '.join(wrong) if wrong else ''}]\n    {text}")
         if len(lengths) >= options.answers:
             break
-    print(f"{len(lengths)} answers: {statistics.mean(lengths):.1f} words in the mean, "
-          f"{statistics.median(lengths):.0f} in the middle, {max(lengths)} at most; {faulty} with a fault")  # fmt: skip
+    mean, middle = statistics.mean(lengths), statistics.median(lengths)
+    print(f"{len(lengths)} answers: {mean:.1f} words in the mean, {middle:.0f} in the middle, "
+          f"{max(lengths)} at most; {faulty} with a fault")  # fmt: skip
     return 1 if faulty else 0
 
 

@@ -38,7 +38,7 @@ BATCH = 25
 CRASHES = "crashes"
 DRAWS = 4
 """Futures drawn to see whether it hangs on chance how it ends."""
-THOROUGH = 500
+THOROUGH = 2_000
 """One of so many decisions of quick planners has all changes up to two edits tried out."""
 CHANCES = 20
 """One of so many decisions has the chances that are stated of it held to futures drawn anew."""
@@ -76,7 +76,7 @@ def checked(job: Job) -> Counted:
 
 def _of_decision(timeline: Timeline, number: int) -> judge.Judged:
     state = timeline.at(timeline.tick - 1)
-    thorough = traits_of(state.config.planner).quick and number % THOROUGH == 0
+    thorough = traits_of(state.config.planner).quick and number % THOROUGH == THOROUGH - 1
     yield from _of_why(timeline, thorough=thorough)
     yield from _of_why_not(timeline, number, thorough=thorough)
     if timeline.state.world.outcome is Outcome.RUNNING and timeline.state.world.count(Kind.VEHICLE):

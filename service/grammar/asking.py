@@ -22,7 +22,7 @@ from service.grammar.parse_types import (
     Span,
     Understood,
 )
-from service.grammar.references import Unclear
+from service.grammar.referents import Unclear
 from service.grammar.refusing import MAX_UNPARSED, Refusing, shorten
 from service.grammar.sentences import Unsayable
 from service.grammar.tokens import Token

@@ -220,6 +220,8 @@ class _Maker:
         if isinstance(value, Amount):
             if attribute == "several" and value.count in (0, 1):
                 raise CannotBuild("one thing is no number of them")
+            if isinstance(value.count, float) and not value.count.is_integer():
+                raise CannotBuild("no part of a thing")
             told = {"of": value.of, "count": value.count, "id": "".join(value.ids[:1])}
             return told["count" if attribute in ("", "several") else attribute]
         return value[attribute] if attribute else value

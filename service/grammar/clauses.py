@@ -11,12 +11,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from service.grammar.accounting import VERB
 from service.grammar.clause import Clause, Divided, context_after
 from service.grammar.composition import Composition, Matcher, asks, within
 from service.grammar.fragments import AND, OR, PAUSE, STOP, THEN, Fragment
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
+from service.grammar.paths import NEGATION
 from service.grammar.single_clause import SingleClauses
 from service.grammar.stretches import Context, Stretches
 from service.grammar.work_budget import WorkBudget
@@ -26,6 +28,9 @@ MAX_JOINED = 16
 
 _TOGETHER = frozenset({"pause", "stop", "and", "but"})
 """Separators inside a listing clause; any other ends it."""
+
+STEERING = ("pause", "resume", "reset")
+"""Concepts of verbs that are requests alone."""
 
 _COUNTING = ("add", "set_count")
 SCENARIO = "scenario"
@@ -62,7 +67,8 @@ class Divider:
             if clause is None or (
                 before is not None
                 and (
-                    self._says_twice(before, clause, parts[at]) or _may_be_negated(before, clause, parts[at])
+                    self._says_twice(before, clause, parts[at])
+                    or self._may_be_negated(before, clause, parts[at])
                 )
             ):
                 divided.failed = parts[at]
@@ -214,6 +220,21 @@ class Divider:
         before = self._stretches.make(parts[first].start, parts[at].end, joined=True)
         return self._matcher.match(before, verbless=False) is not None
 
+    def _may_be_negated(self, before: Clause, clause: Clause, part: Fragment) -> bool:
+        """Whether a negation may go on over an "and": "don't add cars and make it rain" may want no rain.
+
+        One after its verb ends with it, where another verb follows.
+        """
+        if not before.negated or before.filled.frame.leaves_out or part.after != AND:
+            return False
+        if not clause.actions or asks(clause.actions):
+            return False
+        if self._composition.verb_of_its_own(part) is None:
+            return True
+        said = list(self._lattice.between(before.start, before.end))
+        verbs = [edge.start for edge in said if edge.concept.startswith(VERB) or edge.concept in STEERING]
+        return any(edge.concept == NEGATION and edge.start <= min(verbs, default=edge.start) for edge in said)
+
     def _says_twice(self, before: Clause, clause: Clause, part: Fragment) -> bool:
         """Whether a part without a verb would be in the scenario before it, which has that already."""
         if part.after not in (PAUSE, STOP, AND) or self._composition.verb_of_its_own(part) is not None:
@@ -241,13 +262,6 @@ class Divider:
         whole = (parts[a:b] for a, b in zip(begins, [*begins[1:], len(parts)], strict=True))
         stretches = (self._stretches.make(s[0].start, s[-1].end, joined=len(s) > 1) for s in whole)
         return all(self._matcher.match(stretch, verbless=False) is not None for stretch in stretches)
-
-
-def _may_be_negated(before: Clause, clause: Clause, part: Fragment) -> bool:
-    """Whether a negation may go on over an "and": "don't add cars and make it rain" may want no rain."""
-    if not before.negated or before.filled.frame.leaves_out or part.after != AND:
-        return False
-    return bool(clause.actions) and not asks(clause.actions)
 
 
 def _same(apart: Sequence[Clause], joint: Clause) -> bool:

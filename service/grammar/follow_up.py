@@ -199,8 +199,8 @@ def _after_question(language: Language, leaning: Leaning, found: Parse | None, a
     "And left?" asks; "and left" may be either, so it is asked about. One that asks what cannot be found out
     is refused: it must not act.
     """
-    if leaning.goes_on and (meant := _of_advice(leaning.done, alone)) is not None:
-        return meant
+    if leaning.goes_on and (advice := _of_advice(leaning.done, alone)) is not None:
+        return advice
     if not leaning.goes_on or all(traits_of(action).is_question for action in alone.actions):
         return alone if found is None or not leaning.goes_on else found
     if found is None:

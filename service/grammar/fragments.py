@@ -18,8 +18,8 @@ THEN = "then"
 OR = "or"
 AND = "and"
 BEGINS_NEGATION = "negation.begins"
-"""Concept of words that begin a negated part without a separator before them: "nor". Those that are not of the
-value `always` do so before a verb or a noun without a quantity of its own: "without adding", "without any cones"."""
+"""Concept of words that begin a negated part without a separator before them: "nor". Those whose value is not
+`always` do so before a verb, or with a noun: "without adding", "without any cones"."""
 _ALWAYS = "always"
 _VERB = "v."
 EXCEPT = "except"

@@ -1,7 +1,7 @@
 """Counts lanes from the right: "the two right lanes", "the second lane from the right".
 
-Places count lanes from the left, and how many there are is known by the road alone. The topic says it, so that
-what is done holds the numbers that were meant.
+Places count lanes from the left, and how many there are is known by the road alone. The topic says it, so
+that what is done holds the numbers that were meant.
 """
 
 from __future__ import annotations

@@ -43,7 +43,7 @@ def asked_anew(done: tuple[Action, ...], alone: tuple[Action, ...]) -> tuple[Act
         return None
     (question,), (request,) = done, alone
     match question, request:
-        case Ask(about="why" | "why_not", move=Move()), Drive(move=move):
+        case Ask(about="why" | "why_not" | "outlook", move=Move()), Drive(move=move):
             return (replace(question, move=move),)
         case Advise(), Ask(about="what_if", change=(Add(kind=kind, count=1, where=None),)):
             return (replace(question, hazard=kind),)

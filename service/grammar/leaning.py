@@ -98,8 +98,8 @@ class Leaning:
         if base is None or not all(traits_of(action).amendable for action in done):
             return None
         named = self._written(rest)
-        numbers = self._language.data.numbers
-        short = numbers.read(rest, 0) is not None or numbers.ordinal(rest[-1]) is not None
+        words = self._language.data.numbers
+        short = words.read(rest, 0) is not None or words.ordinal(rest[-1]) is not None
         after = self._answers.one_after if short else ()
         other = to_other_things(self._language, named, self._spoken_of, done, after)
         if other is None and self._points(rest):

@@ -1,7 +1,7 @@
 """Reads an unknown word that several words are one edit away from: as the one that makes a sentence.
 
-"Fater" may be "faster", "later" or "father"; "cruise 10 mph fater" is a request with one of them alone. Where two
-of them make different requests nothing is guessed. Words for numbers are never among them. A letter left out,
+"Fater" may be "faster", "later" or "father"; "cruise 10 mph fater" is a request with one of them alone. Where
+two of them make different requests nothing is guessed. Words for numbers are never among them. A letter left out,
 doubled or swapped is commoner than a wrong one, so where such words are near the others are not tried.
 """
 

@@ -1,7 +1,8 @@
 """Finds values that a setting has and shall no longer have: "raise the buffer **from 1** to 3".
 
-Such words say nothing about what is to be set, so frames that set a value take them and drop them. They count only
-where the new value follows: in "30 % from now" and "two from lane 3" nothing is changed from one value to another.
+Such words say nothing about what is to be set, so frames that set a value take them and drop them. They count
+only where the new value follows: in "30 % from now" and "two from lane 3" nothing is changed from one value to
+another.
 """
 
 from __future__ import annotations

@@ -98,7 +98,7 @@ class Reading(Asking):
         return Understood(self._text, actions, self._corrections, supposes, spans)
 
     def _drives_a_thing(self, values: Sequence[dict[str, Any]]) -> bool:
-        """Whether the vehicle would turn although something that is not known was to be moved: "move it left"."""
+        """Whether the vehicle would turn although something unknown was to be moved: "move it left"."""
         return any(value["do"] == "drive" for value in values) and any(
             edge.concept == SHIFT and edge.end == unclear.start
             for unclear in self._unclear

@@ -8,7 +8,7 @@ none was spoken of; its frame says so.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 
 from service.actions import Undo, dump
 from service.grammar.fragments import REPEATED
@@ -17,6 +17,17 @@ from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
 from service.grammar.parse_types import Parse, Refused, Understood
+from service.grammar.referents import (
+    MAX_CANDIDATES,
+    Unclear,
+    every_thing,
+    next_thing,
+    other_things,
+    several_things,
+    so_many_things,
+    some_things,
+    thing_edge,
+)
 from service.grammar.said_before import done_anew, take_back, take_back_change
 from service.grammar.tokens import Token
 from service.grammar.topic import Phrases, Topic
@@ -26,9 +37,10 @@ from sim.types import kind_of
 REFERS = "refers"
 """Concept of words that refer; their value says how."""
 
-BY_ID = "thing.id"
+GOAL = "goal_mark"
+"""Concept of words before a destination: "to"."""
+
 TAUGHT = "taught"
-MAX_CANDIDATES = 5
 
 _REFERRING = frozenset(
     (REFERS, "thing.that", "thing.those", "thing.the_one", "thing.last", "thing.last_counted")
@@ -40,16 +52,6 @@ _WHOLE = frozenset(("other", "others", "next", "both"))
 """References of several words that are small words of other requests by themselves."""
 
 _OPPOSITE = {"left": "right", "right": "left"}
-
-
-@dataclass(frozen=True, slots=True)
-class Unclear:
-    """A reference to one of several things, or (no candidates) to nothing that was spoken of."""
-
-    start: int
-    end: int
-    candidates: tuple[str, ...] = ()
-    lane: bool = False
 
 
 def parse_in_topic(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Parse:
@@ -75,7 +77,7 @@ def add_known(lattice: Lattice, tokens: Sequence[Token], topic: Topic) -> None:
     phrases = topic.phrases if topic.phrases.by_first else None
     for at, token in enumerate(tokens):
         if token.id:
-            lattice.edges[at].append(_things(at, at + 1, (token.text,)))
+            lattice.edges[at].append(thing_edge(at, at + 1, (token.text,)))
         taught = None if phrases is None else phrases.at(words, at)
         if taught is not None:
             lattice.edges[at].append(Edge(at, taught[0], Sense(TAUGHT, taught[1])))
@@ -108,20 +110,22 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
     start, end = edge.start, edge.end
     match edge.sense.value:
         case "one" if len(topic.things) == 1:
-            return _things(start, end, topic.things)
+            return thing_edge(start, end, topic.things)
         case "one":
             return Unclear(start, end, topic.things[-MAX_CANDIDATES:])
         case "all" if len(topic.things) > 1:
-            return _things(start, end, topic.things)
+            return thing_edge(start, end, topic.things)
         case "all" | "both" as which:
-            return _several(start, end, topic, both=which == "both")
+            return several_things(start, end, topic, both=which == "both")
+        case "every":
+            return every_thing(start, end, topic)
         case "person" if len(topic.things) == 1 and kind_of(topic.things[0]) == "pedestrian":
-            return _things(start, end, topic.things)
+            return thing_edge(start, end, topic.things)
         case "person":
             people = tuple(name for name in topic.things if kind_of(name) == "pedestrian")
             return Unclear(start, end, people[-MAX_CANDIDATES:])
         case "last" if topic.added:
-            return _things(start, end, topic.added[-1:])
+            return thing_edge(start, end, topic.added[-1:])
         case "again" if topic.undone:
             return Edge(start, end, Sense(REPEATED, [{"do": "redo"}]))
         case "again" if topic.actions:
@@ -130,7 +134,7 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
             said = {key: part for key, part in asdict(topic.where).items() if part is not None}
             return Edge(start, end, Sense("place", said))
         case {"nth": int() as number} if 0 < number <= len(topic.listed):
-            return _things(start, end, topic.listed[number - 1 : number])
+            return thing_edge(start, end, topic.listed[number - 1 : number])
         case "opposite" if (other := turned(topic)) is not None:
             return Edge(start, end, Sense(REPEATED, dump(done_anew(topic, other))))
         case "since" if topic.tick is not None:
@@ -139,18 +143,18 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
         case {"its": str() as side}:
             return _beside_it(edge, lattice, topic, side)
         case {"some": int() | "half" as number}:
-            return _part(start, end, topic, number)
+            return some_things(start, end, topic, number)
         case {"all": int() as number}:
-            return _so_many(start, end, topic, number)
+            return so_many_things(start, end, topic, number)
         case {"others": int() as number}:
-            left = _others(start, end, topic, one=False)
+            left = other_things(start, end, topic, one=False)
             fits = isinstance(left, Edge) and len(left.sense.value.ids) == number
             return left if fits else Unclear(start, end)
         case "next":
-            return _next(start, end, topic)
+            return next_thing(start, end, topic)
         case "other" | "others" as which:
-            return _others(start, end, topic, one=which == "other")
-        case "back" if _took_away(topic):
+            return other_things(start, end, topic, one=which == "other")
+        case "back" if _took_away(topic) and not _goes_to(lattice, end):
             return Edge(start, end, Sense(REPEATED, dump((take_back_change(topic),))))
         case "back_both" | "undo_both" as which if steps := steps_of_two(
             topic, put_back=which == "back_both"
@@ -195,21 +199,6 @@ def _keep_whole(lattice: Lattice, outer: Edge) -> None:
         ]
 
 
-def _several(start: int, end: int, topic: Topic, *, both: bool) -> Edge | Unclear:
-    """The things a plural stands for where one was spoken of last: that one, and the one before it.
-
-    "Both" are two things; of more, or of one alone, nothing is guessed.
-    """
-    last, before = topic.things, topic.before
-    if len(last) == 2 or (not both and last and not before):
-        return _things(start, end, last)
-    if len(last) == len(before) == 1:
-        return _things(start, end, (*before, *last))
-    if not both and len(last) == 1 and kind_of(last[0]) == "pedestrian":
-        return _things(start, end, last)  # "them" of one person
-    return Unclear(start, end, (*before, *last)[-MAX_CANDIDATES:])
-
-
 def _beside_it(edge: Edge, lattice: Lattice, topic: Topic, side: str) -> Edge | Unclear | None:
     """A place seen from the thing spoken of last ("to its left"); without one it is the vehicle's."""
     start, end = edge.start, edge.end
@@ -226,42 +215,9 @@ def _beside_it(edge: Edge, lattice: Lattice, topic: Topic, side: str) -> Edge | 
     return Edge(start, end, Sense("place", {"side": side, "of": {"id": topic.things[0]}}))
 
 
-def _next(start: int, end: int, topic: Topic) -> Edge | Unclear:
-    """The thing after the one that was named last, in the order in which things were told."""
-    places = [topic.listed.index(name) for name in topic.named if name in topic.listed]
-    after = topic.listed[places[-1] + 1 :] if places else ()
-    left = tuple(name for name in after if name not in topic.gone)
-    return _things(start, end, left[:1]) if left else Unclear(start, end)
-
-
-def _others(start: int, end: int, topic: Topic, *, one: bool) -> Edge | Unclear:
-    """Those of what was told last that were not just spoken of."""
-    there = tuple(name for name in topic.listed if name not in topic.gone)
-    left = tuple(name for name in there if name not in topic.things)
-    left = left or tuple(name for name in topic.before if name not in topic.things) or there
-    if not left or (one and len(left) > 1):
-        return Unclear(start, end, left[-MAX_CANDIDATES:])
-    return _things(start, end, left)
-
-
-def _part(start: int, end: int, topic: Topic, number: int | str) -> Edge | None:
-    """So many of the things spoken of ("two of them"), the latest of them.
-
-    None where they are all of their kind: then the amount alone says it.
-    """
-    there = len(topic.things)
-    count = max(1, there // 2) if isinstance(number, str) else number
-    if not topic.others or not 0 < count <= there or there < 2:
-        return None
-    return _things(start, end, topic.things[-count:])
-
-
-def _so_many(start: int, end: int, topic: Topic, number: int) -> Edge | Unclear:
-    """All so many things that were spoken of ("all three"): by one request, or by all of them."""
-    for things in (topic.things, (*topic.before, *topic.things), topic.added):
-        if number > 1 and len(things) == number:
-            return _things(start, end, things)
-    return Unclear(start, end)
+def _goes_to(lattice: Lattice, at: int) -> bool:
+    """Whether a destination follows: "put it back to that" is no undo."""
+    return at < lattice.size and any(edge.concept == GOAL for edge in lattice.edges[at])
 
 
 def _took_away(topic: Topic) -> bool:
@@ -300,13 +256,9 @@ def _pointed(edge: Edge, topic: Topic) -> Edge | Unclear | None:
         count = int(amount.count or 1)
         if len(ids) < count or count < 1:
             return Unclear(edge.start, edge.end)
-        return _things(edge.start, edge.end, ids[-count:])
+        return thing_edge(edge.start, edge.end, ids[-count:])
     if not ids:
         return None
     if form == "those" or len(ids) == 1:
-        return _things(edge.start, edge.end, ids)
+        return thing_edge(edge.start, edge.end, ids)
     return Unclear(edge.start, edge.end, ids[-MAX_CANDIDATES:])
-
-
-def _things(start: int, end: int, ids: tuple[str, ...]) -> Edge:
-    return Edge(start, end, Sense(BY_ID, Amount(kind_of(ids[-1]), len(ids), ids)))

@@ -165,7 +165,7 @@ class Repair:
         return self._stands_elsewhere(end)
 
     def _points(self, end: int) -> bool:
-        """Whether what is dropped are things on the road: "instead of that cone" is more than not to add one."""
+        """Whether things on the road are dropped: "instead of that cone" is more than not to add one."""
         return any(
             edge.concept == QUANTITY and edge.sense.value in _DEFINITE
             for edge in self._lattice.between(self._again, end)

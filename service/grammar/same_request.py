@@ -35,10 +35,11 @@ def to_other_things(
     `named` is as it was said, and what it may refer to is in the topic; `noun_after` are ways to complete it
     ("the third": "the third one").
     """
-    if not done or not all(isinstance(each, Remove | MoveThings | Replace | Copy) for each in done):
+    of_things = [each for each in done if isinstance(each, Remove | MoveThings | Replace | Copy)]
+    if not of_things or len(of_things) < len(done):
         return None
-    first = done[0]
-    alike = {_without_thing(each) for each in done}
+    first = of_things[0]
+    alike = {_without_thing(each) for each in of_things}
     if len(alike) > 1 or not _pointed(first):
         return None
     try:

@@ -1,7 +1,7 @@
 """Finds what "it" stands for where the same sentence has just named a setting or a view.
 
-"What does courtesy do, and set it to 0.3": a word that stands for one thing is read as what the request before it
-was about. Things on the road are not found so: "that cone" may be another one when the first request is done.
+"What does courtesy do, and set it to 0.3": a word that stands for one thing is read as what the request before
+it was about. Things on the road are not found so: "that cone" may be another one when the first request is done.
 """
 
 from __future__ import annotations

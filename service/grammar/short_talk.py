@@ -161,13 +161,14 @@ def pick_going_on(language: Language, text: str, topic: Topic, parsed: Parse) ->
 def _continued(language: Language, text: str, tokens: Sequence[Token], topic: Topic) -> Parse | None:
     """Another request of the kind of the last one, without its verb: "now as if you were in a hurry"."""
     answers, plain = language.data.answers, normalise(text)
-    template = answers.continues.get(topic.request[0].do) if len(topic.request) == 1 else None
+    does = {action.do for action in topic.request}
+    template = answers.continues.get(does.pop()) if len(does) == 1 else None
     start = max(answers.beginning(tokens, FOLLOWS), answers.beginning(tokens, STILL))
-    if template is None or start >= len(tokens):
+    end = len(tokens) - answers.ending(tokens, TOO)
+    if template is None or start >= end or (not start and end == len(tokens) and topic.kind is not None):
         return None
-    parsed = language.read(
-        template.format(said=plain[tokens[start].start : tokens[-1].end]), ALONE, WorkBudget(), asking=False
-    )
+    said = template.format(said=plain[tokens[start].start : tokens[end - 1].end])
+    parsed = language.read(said, topic, WorkBudget(), asking=False)
     alike = isinstance(parsed, Understood) and all(each.do == topic.request[0].do for each in parsed.actions)
     return replace(parsed, text=text) if alike and isinstance(parsed, Understood) else None
 

@@ -70,9 +70,11 @@ def read_asked(language: Language, text: str, topic: Topic) -> Parse | None:
         said = str(template).format(**names)
     elif (both := two_things(topic)) is not None and (template := answers.meant(tokens, TWO)) is not None:
         said = str(template).format(*both)
-    pointed = said is None and bool(tokens) and language.data.numbers.ordinal(tokens[-1]) is not None
-    if pointed and answers.one_after:
-        said = answers.one_after[0].format(said=normalise(text)[: tokens[-1].end])
+    ordinals = [token for token in tokens if language.data.numbers.ordinal(token) is not None]
+    pointed = said is None and len(ordinals) == 1 and bool(answers.one_after)
+    if pointed:
+        plain, end = normalise(text), ordinals[0].end
+        said = answers.one_after[0].format(said=plain[:end]) + plain[end : tokens[-1].end]
     if said is None:
         return None
     try:

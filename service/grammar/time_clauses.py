@@ -1,7 +1,7 @@
 """Reads two requests of which one is told from the other in time: "after adding two cars, pause".
 
-It is not sure that both shall be done: "save it before you reset" may be said to someone who is about to reset. So
-what is found is asked about, and what is no request ("before the next crash") is none here.
+It is not sure that both shall be done: "save it before you reset" may be said to someone who is about to reset.
+So what is found is asked about, and what is no request ("before the next crash") is none here.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.paths import SEPARATOR
 
 TIME = "time_clause"
-"""Concept of the words that begin such a part; their value says which part is done first, and what may follow."""
+"""Concept of the words that begin such a part; their value says which is done first, and what may follow."""
 
 AFTER = ("after", "after_doing")
 """Those of words whose part comes first: "after adding two cars"."""

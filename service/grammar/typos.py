@@ -57,7 +57,7 @@ class Typos:
         return best if all(other == best or self._same(best, other) for other in near) else None
 
     def near(self, word: str) -> list[str]:
-        """The words that an unknown word may be, in the order of the alphabet; none where a number is near."""
+        """The words that an unknown word may be, in alphabetical order; none where a number is near."""
         if len(word) < self._rules.shortest_written or len(word) > 30 or word in self._rules.never:
             return []
         near = {other for shape in _shapes(word) for other in self._by_shape.get(shape, ())}

@@ -1,6 +1,6 @@
 """Asks what is meant where a request would be done to the vehicle although "it" may be a thing.
 
-"Move it to the left" with nothing or several things spoken of, and "a cone next to it", have the vehicle's
+"Move it to the left" with several things spoken of, and "a cone next to it", have the vehicle's
 side in them only because no thing is known that could be meant. A word alone with a question mark is no
 request either: "left?" is asked about.
 """
@@ -9,27 +9,28 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import get_args
+from typing import cast, get_args
 
 from service.actions import Action
 from service.actions.table import traits_of
 from service.grammar.answer_words import FOLLOWS, NO
 from service.grammar.engine import Language
 from service.grammar.parse_types import Ambiguous, Choice, Understood
-from service.grammar.references import MAX_CANDIDATES, REFERS
+from service.grammar.references import REFERS
+from service.grammar.referents import MAX_CANDIDATES
 from service.grammar.sentences import Unsayable
 from service.grammar.setting_talk import setting_of
 from service.grammar.thing_talk import says_verb
 from service.grammar.tokens import Token, normalise, tokenise
 from service.grammar.topic import Topic
-from sim.actions import Add, Direction, Drive, Landmark, MoveThings, Reset, Shift, Where
+from sim.actions import Add, Direction, Drive, Landmark, MoveThings, PlaceableKind, Reset, Shift, Where
 from sim.types import kind_of
 
 MOVES_THINGS = "v.shift"
 """Concept of the verbs that move things, and the vehicle where nothing else is said."""
 
 BESIDE = "beside"
-OFFERED_KINDS = ("vehicle", "barrier")
+OFFERED_KINDS: tuple[PlaceableKind, ...] = ("vehicle", "barrier")
 """Of these the nearest is offered where nothing was spoken of."""
 
 MAX_ALONE = 4
@@ -65,10 +66,12 @@ def _refers(language: Language, text: str) -> bool:
 
 def _things_meant(action: Action, topic: Topic) -> list[Action]:
     """The request done to each thing that may be meant: those spoken of, or the nearest."""
-    wheres = [(kind_of(name), Where(id=name)) for name in topic.things[-MAX_CANDIDATES:]]
+    wheres: list[tuple[PlaceableKind, Where]] = [
+        (cast(PlaceableKind, str(kind_of(name))), Where(id=name)) for name in topic.things[-MAX_CANDIDATES:]
+    ]
     wheres = wheres or [(kind, Where(nearest=True)) for kind in OFFERED_KINDS]
     if isinstance(action, Drive):
-        by = Shift(side=action.move)
+        by = Shift(side=cast(Direction, str(action.move)))
         return [MoveThings(kind=kind, count=1, where=where, by=by) for kind, where in wheres]
     assert isinstance(action, Add)
     assert action.where is not None

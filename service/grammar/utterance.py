@@ -16,7 +16,7 @@ from service.grammar.parse_types import (
     Correction,
     Parse,
 )
-from service.grammar.references import Unclear
+from service.grammar.referents import Unclear
 from service.grammar.sentences import Sentences
 from service.grammar.suggestions import Suggestions
 from service.grammar.tokens import Token

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
+from typing import cast
 
 from anyio import from_thread, to_thread
 
@@ -17,6 +18,7 @@ from service.grammar import Language as Grammar
 from service.grammar.completion import Completer
 from service.grammar.corpus import sentences
 from service.grammar.parse_types import Understood
+from service.grammar.sentences import Unsayable
 from service.grammar.topic import Topic
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.availability import refusal_of
@@ -26,10 +28,11 @@ from service.sessions.scheduler.playback_speed import (
     change_playback_speed,
 )
 from service.sessions.session import Session
-from sim.actions import Adjust, Set
+from sim.actions import Adjust, PlaceableKind, Remove, Set, Where
 from sim.config import Config
 from sim.session.errors import EditError
 from sim.session.settings import change_setting
+from sim.types import kind_of
 
 MAX_INLINE_CHARS = 40
 """Longest prefix, in characters, that is completed on the event loop; longer ones in a thread."""
@@ -100,9 +103,12 @@ class Guide:
 
     def _by_id(self, topic: Topic) -> Iterator[str]:
         """Sentences about the things that the conversation is about."""
-        for typical in self._grammar.ways_to_say("v.remove")[:1]:
-            for name in reversed(topic.things):
-                yield f"{typical} {name}"
+        for name in reversed(topic.things):
+            away = Remove(kind=cast(PlaceableKind, str(kind_of(name))), count=1, where=Where(id=name))
+            try:
+                yield self._grammar.sentence((away,))
+            except Unsayable:
+                return
 
     @cached_property
     def _sayings(self) -> tuple[str, ...]:

@@ -185,9 +185,7 @@ class _Telling:
         """Why a free move was not taken by a planner that knows what each costs in all."""
         decision, best = self._decision, self._decision.chosen.cost
         if decision.measure is Measure.OWN:
-            return self._say(
-                "not_own", at=self._at, planner=self._sayings.planner(decision.planner, "id")
-            )
+            return self._say("not_own", at=self._at, planner=self._sayings.planner(decision.planner, "id"))
         if option.cost is None or best is None:
             return self._say("not_dead_end", at=self._at, do=do)
         more = option.cost - best
@@ -265,7 +263,7 @@ class _Telling:
 
 
 def _time_of(sayings: Sayings, explanation: Explanation, now: int | None) -> str:
-    """When a decision was taken, as the beginning of a sentence: the last one just now, others so long ago."""
+    """When a decision was taken, to begin a sentence: the last one just now, others so long ago."""
     tick = explanation.decision.tick
     if now is None:
         return sayings.say("why", "at", "tick", tick=tick)

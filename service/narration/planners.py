@@ -7,7 +7,7 @@ from typing import Final
 
 from service.actions import Ask
 from service.contract.encode.planners import character_json, own_move_json, planners_json
-from service.narration.answer_length import Part, within
+from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
 from service.narration.futures_told import CONTRARY, end_told, share_told, yes_and_no
@@ -54,34 +54,38 @@ class Planners:
         return self._here(here, best=ask.what == "compare"), planners_json(here)
 
     def _here(self, found: PlannersHere, *, best: bool) -> str:
-        """One line for each way to drive, those that were asked about first."""
-        alike: dict[tuple[str, str], list[PlannerDrive]] = {}
-        for drive in found.others:
-            told_as = self._what(found, drive, own=False), self._end(drive.foresight)
-            alike.setdefault(told_as, []).append(drive)
-        lines = [self._line(found, drives) for drives in alike.values()]
-        own = self._line(found, [found.own])
-        told = [own, *lines] if best else [*lines, own]
-        parts = [Part(0, text) for text in told]
-        if best and found.others:
-            parts.append(Part(1, self._best(found)))
-        if found.missing:
-            names = self._sayings.joined([self._sayings.quoted(name) for name in found.missing])
-            parts.insert(0, Part(0, self._say("missing", names=names)))
+        """One line for each way to drive; where they are too many words, one for each end."""
+        parts = self._lines(found, best=best, briefly=False)
+        if sum(len(part.text.split()) for part in parts) > MOST_WORDS:
+            parts = self._lines(found, best=best, briefly=True)
         return within(parts, None)
 
-    def _line(self, found: PlannersHere, drives: Sequence[PlannerDrive]) -> str:
+    def _lines(self, found: PlannersHere, *, best: bool, briefly: bool) -> list[Part]:
+        """The lines, those that were asked about first; `briefly`: only how each ends."""
+        alike: dict[tuple[str, str], list[PlannerDrive]] = {}
+        for drive in found.others:
+            what = "" if briefly else self._what(found, drive, own=False)
+            alike.setdefault((what, self._end(drive.foresight)), []).append(drive)
+        lines = [self._line(found, drives, briefly) for drives in alike.values()]
+        own = self._line(found, [found.own], briefly)
+        told = [own, *lines] if best else [*lines, own]
+        if best and found.others:
+            told.append(self._best(found))
+        if found.missing:
+            names = self._sayings.joined([self._sayings.quoted(name) for name in found.missing])
+            told.insert(0, self._say("missing", names=names))
+        return [Part(0, text) for text in told]
+
+    def _line(self, found: PlannersHere, drives: Sequence[PlannerDrive], briefly: bool) -> str:
         """What planners do that drive alike from here on, and what comes of it."""
         first = drives[0]
         names = self._sayings.joined([self._sayings.planner(drive.planner) for drive in drives])
         own = first is found.own
         if own:
             names = self._say("driving", planner=names)
-        return capital(
-            self._say(
-                "line", planners=names, what=self._what(found, first, own=own), end=self._end(first.foresight)
-            )
-        )
+        what = "" if briefly else self._what(found, first, own=own)
+        key = "line_brief" if briefly else "line"
+        return capital(self._say(key, planners=names, what=what, end=self._end(first.foresight)))
 
     def _what(self, found: PlannersHere, drive: PlannerDrive, *, own: bool) -> str:
         path, ahead = drive.foresight.story.path, 0 if own else found.parting(drive)

@@ -17,6 +17,9 @@ from sim.types import Move
 MOST_TOLD = 3
 """How many causes are told; the facts have all."""
 
+LEAST = 9
+"""Rank of what is left out first."""
+
 MOST_WALLS = 2
 """How many blocked cells are told one by one; of more their number is told."""
 
@@ -44,7 +47,8 @@ class Proofs:
         told = dict.fromkeys(self._stand_in(cause, moves[cause.group]) for cause in others)
         room = max(1, MOST_TOLD - len(alone))
         parts += [Part(3 + at, text) for at, text in enumerate(list(told)[:room])]
-        return [*parts, Part(1, self._untried())]
+        hint = Part(LEAST, self._say("go_on") if self._explanation.untried and not self._detailed else "")
+        return [*parts, Part(1, self._untried()), hint]
 
     def _alone(self, alone: list[Cause], moves: dict[tuple[str, ...], Move], *, sole: bool) -> str:
         """What each flips the move by itself: up to three, and how many more."""

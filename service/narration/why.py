@@ -13,6 +13,7 @@ from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError, why, why_not
 from sim.explain.crash import led_to_crash
+from sim.explain.effort import Effort
 
 
 class Whys:
@@ -36,11 +37,12 @@ class Whys:
             return self._foils.contrasted(asked)
         if ask.about == "why" and ask.move is None and self._about_a_crash(asked):
             return self._crashes.answer(asked)
+        effort = Effort.MORE if asked.length == "longer" else Effort.USUAL
         try:
             if ask.move is not None and ask.about == "why_not":
-                explanation = why_not(timeline, ask.move, ask.tick)
+                explanation = why_not(timeline, ask.move, ask.tick, effort=effort)
             else:
-                explanation = why(timeline, ask.tick, ask.move)
+                explanation = why(timeline, ask.tick, ask.move, effort=effort)
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         text = self._explained.text(

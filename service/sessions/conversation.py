@@ -203,7 +203,9 @@ class Conversation:
             return
         self._set_episode(fact.state.world)
         self._things += tuple(thing.id for thing in fact.added)
-        self._things += tuple(each.thing.id for each in fact.moved)
+        moved = tuple(each.thing.id for each in fact.moved)
+        # What was there already is spoken of as well.
+        self._things += moved or (named((action,)) if isinstance(action, MoveThings) else ())
         added = tuple(thing.id for thing in fact.added)
         self._listed = (*(name for name in self._listed if name not in added), *added)
         self._batch += added
@@ -297,6 +299,8 @@ class Conversation:
     def topic(self, world: World, phrases: Phrases, names: Iterable[str] = ()) -> Topic:
         """What a sentence said now may refer to; `names` are those of bookmarks."""
         there = {*world.movers.values(), *world.hazards.values()} if self._episode == _episode(world) else ()
+        kinds: set[str | None] = {str(kind_of(name)) for name in self._things if name in there}
+        kinds = kinds or {self._kind}
         return Topic(
             things=tuple(name for name in self._things if name in there),
             before=tuple(name for name in self._before if name in there and name not in self._things),
@@ -318,7 +322,7 @@ class Conversation:
             kind=self._kind,
             tick=self._tick,
             offered=self._offered,
-            others=sum(kind_of(name) == self._kind for name in set(there) - set(self._things)),
+            others=sum(kind_of(name) in kinds for name in set(there) - set(self._things)),
             removed=self._removed,
             where=self._where,
             phrases=phrases,

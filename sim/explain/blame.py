@@ -1,8 +1,8 @@
 """Whose fault a crash was, by a stated duty; when it was too late; whether it was seen coming.
 
 The duty follows responsibility-sensitive safety (S. Shalev-Shwartz, S. Shammah, A. Shashua, *On a formal
-model of safe and scalable self-driving cars*, arXiv:1708.06374, 2017): nobody moves into another, and who can
-avoid a crash must. So it is asked who moved into whom, and whether the ego could have kept clear *knowing what
+model of safe and scalable self-driving cars*, arXiv:1708.06374, 2017): nobody moves into another, and who
+can avoid a crash must. So it is asked who moved into whom, and whether the ego could have kept clear *knowing what
 it knew*: by a move that it saw to be free, or by a way that was there before and that nothing left to chance or
 unseen hid from it. That a way was there is searched on the road as it was (`sim.explain.avoidance`).
 """

@@ -26,8 +26,8 @@ _DECISION: Final = 4
 """Work of a decision that looks no further than the next tick."""
 _TICK: Final = {Measure.TICKS: 1, Measure.COST: 4}
 """Work of each tick of a way to the goal, by what is weighed."""
-_NO_WAY: Final = 100
-"""Ticks that count for a decision that finds no way to the goal."""
+_NO_WAY: Final = 3
+"""Ticks for each row of the road that count for a decision that finds no way to the goal."""
 
 
 class Effort(StrEnum):
@@ -52,5 +52,5 @@ def work_of(decision: Decision, config: Config) -> int:
     if not of_tick or traits_of(decision.planner).quick:
         return _DECISION
     if cost is None:
-        return _DECISION + of_tick * _NO_WAY
+        return _DECISION + of_tick * _NO_WAY * config.rows
     return _DECISION + of_tick * int(cost / (weights(config).tick if decision.measure is Measure.COST else 1))

@@ -183,3 +183,7 @@ class ChangeSearch:
         if decision.measure is Measure.COST:
             yield from (Edit(actions=(Prefer(preference=wish),)) for wish in get_args(Wish))
         yield from (Edit(gone=name) for name in names if name not in first)
+        for each in decision.options:  # what is blocked there may hold a mover, or turn one round
+            if each.cell not in (None, own, option.cell) and each.verdict != "free":
+                assert each.cell is not None
+                yield Edit(actions=(wall(world, each.cell),))

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+Item = TypeVar("Item")
 
 
-def ddmin(names: Sequence[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:
+def ddmin(names: Sequence[Item], holds: Callable[[Sequence[Item]], bool]) -> list[Item]:
     """What is left of `names` when all that can be spared (the last first) is, one by one in the end.
 
     `holds` is true of `names`, and of the answer.

@@ -16,7 +16,7 @@ from sim.rules.grid_dynamics import GridDynamics, GridMasks
 from sim.search.astar import cheapest, no_heuristic
 from sim.search.continued import Known, continued, keep
 from sim.search.costs import Weights
-from sim.search.reachability import on_shortest, reachability
+from sim.search.reachability import none_leads_on, on_shortest, reachability
 from sim.search.time_expanded import TimeExpandedGraph
 from sim.search.waiting_cost import cost_of_staying
 from sim.types import MOVES, Move
@@ -104,7 +104,10 @@ def _searched_totals(forecast: Forecast, terrain: TimeExpandedGraph, limit: int)
 def _horizon(forecast: Forecast, terrain: TimeExpandedGraph, limit: int) -> int:
     """Ticks within which the cheapest way of every first move that has one ends."""
     furthest = 0
-    for move, there in zip(MOVES, forecast.steps(1 << forecast.ego) if limit else (), strict=False):
+    steps = forecast.steps(1 << forecast.ego) if limit else ()
+    if limit and none_leads_on(forecast, steps, limit):
+        return 0
+    for move, there in zip(MOVES, steps, strict=False):
         if not there:
             continue
         found = reachability(forecast, there, limit - 1, after=1, whole=False)

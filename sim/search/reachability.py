@@ -152,14 +152,17 @@ def least_ticks_by_move(forecast: Forecast, limit: int) -> tuple[int | None, ...
         found.append(None if ticks is None else ticks + 1)
         if ticks is None and not hopeless:  # then mostly no other move leads on either
             hopeless.add(there)
-            if not _any_leads_on(forecast, foreseen, limit):
+            if none_leads_on(forecast, foreseen, limit):
                 hopeless.update(foreseen)
     return tuple(found)
 
 
-def _any_leads_on(forecast: Forecast, starts: Sequence[Board], limit: int) -> bool:
-    """Whether any of these first steps has a way on to the goal."""
-    return reachability(forecast, _union(starts), limit - 1, after=1, whole=False).ticks is not None
+def none_leads_on(forecast: Forecast, starts: Sequence[Board], limit: int) -> bool:
+    """Whether none of these first steps has a way on to the goal."""
+    together = _union(starts)
+    if shut_in(forecast, together, limit):
+        return True
+    return reachability(forecast, together, limit - 1, after=1, whole=False).ticks is None
 
 
 def _union(boards: Sequence[Board]) -> Board:

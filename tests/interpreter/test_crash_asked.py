@@ -54,6 +54,15 @@ async def test_what_lies_ahead_goes_on_with_another_move(talk: Talk) -> None:
     assert (safe["what"], safe["move"]) == ("safe", "left")
     dangerous = await asked(talk, session, "is it dangerous to go left?")
     assert str(dangerous["text"]).split(":")[0] != str(safe["text"]).split(":")[0]
+    for text, move in (
+        ("is it safe to go left?", "left"),
+        ("and right?", "right"),
+        ("and straight?", "forward"),
+    ):
+        answer = await talk.client.post(f"/api/v1/sessions/{session}/commands", json={"text": text})
+        assert answer.json()["actions"] == [
+            {"do": "ask", "about": "outlook", "what": "safe", "move": move}
+        ], text
     here = await asked(talk, session, "what would A* do here?")
     assert str(here["text"]).startswith("A*: ")
 

@@ -71,8 +71,7 @@ def test_every_answer_is_short_and_in_sentences(code: str) -> None:
             assert looks_like_sentences(text), text
             assert ids_in(text) == set(), text
             assert told["question"]
-            lines = 2 * MOST_WORDS if ask.about == "planners" else MOST_WORDS
-            assert len(text.split()) <= lines, text
+            assert len(text.split()) <= MOST_WORDS, text
 
 
 @pytest.mark.parametrize("code", NARRATORS)

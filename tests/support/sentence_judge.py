@@ -10,12 +10,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import combinations
+from typing import get_args
 
 from service.narration.explanation import Explained
 from service.narration.naming import Naming
 from service.narration.narrator import Narrator
 from service.narration.sayings import Sayings
-from sim.actions import Add, Prefer, Remove, WorldAction
+from sim.actions import Add, Prefer, Remove, Wish, WorldAction
 from sim.decide import decide
 from sim.explain import Explanation
 from sim.explain.crash import Crash
@@ -171,7 +172,7 @@ def changes_reaching(state: SimState, foil: Move, size: int) -> Iterator[tuple[W
     ]
     edits += [(wall(state.world, cell),) for cell in cells]
     if made.measure is Measure.COST:
-        edits += [(Prefer(preference=wish),) for wish in ("fastest", "cautious", "balanced")]  # type: ignore[arg-type]
+        edits += [(Prefer(preference=wish),) for wish in get_args(Wish)]
     for count in range(1, size + 1):
         for part in combinations(edits, count):
             change = [action for one in part for action in one]
