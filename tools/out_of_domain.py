@@ -15,7 +15,6 @@ from service.grammar import Language
 from service.grammar.parse_types import Ambiguous, Understood
 from tests.support.other_domains import PER_SUBJECT, sentences
 
-
 NOTHING_DONE = {"chat": "small talk", "load": "unknown name"}
 """Actions that do nothing: a line of small talk; a name that nobody gave is refused when it is looked up."""
 

@@ -8,19 +8,18 @@ potholes"). Negated fragments are understood and then left out.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import replace
 
 from service.grammar.accounting import VERB
+from service.grammar.clause import Clause, Divided, context_after
 from service.grammar.composition import Composition, Matcher, asks, within
-from service.grammar.fragments import AND, BUT, EXCEPT, INTERJECTION, OR, PAUSE, STOP, THEN, Fragment
-from service.grammar.frames import Filled
-from service.grammar.lattice import GLUE, NUMBER, Edge, Lattice
+from service.grammar.fragments import AND, OR, PAUSE, STOP, THEN, Fragment
+from service.grammar.lattice import Edge, Lattice
 from service.grammar.lexicon import Sense
-from service.grammar.noun_phrases import QUANTITY, Amount
+from service.grammar.noun_phrases import Amount
 from service.grammar.paths import NEGATION
-from service.grammar.places_apart import are_apart
+from service.grammar.single_clause import SingleClauses
 from service.grammar.stretches import Context, Stretches
 from service.grammar.work_budget import WorkBudget
 
@@ -29,51 +28,12 @@ MAX_JOINED = 16
 
 _TOGETHER = frozenset({"pause", "stop", "and", "but"})
 """Separators inside a listing clause; any other ends it."""
-_WHOLE = (".all", ".the_many", ".bare_many", ".those")
-"""Amounts that hold again in another place: "the cones in lane 3 and in lane 5"."""
-
-_FURTHER = ("more", "another")
-_PLACED = ("place", "side", "length")
 
 STEERING = ("pause", "resume", "reset")
 """Concepts of verbs that are requests alone."""
 
-CONTRAST = "contrast"
 _COUNTING = ("add", "set_count")
 SCENARIO = "scenario"
-EVERYTHING = "everything"
-
-
-@dataclass(frozen=True, slots=True)
-class Clause:
-    """A request found in tokens `[start, end)`; no actions when it is negated."""
-
-    start: int
-    end: int
-    filled: Filled
-    actions: list[dict[str, Any]]
-    negated: bool = False
-    after: str = "pause"
-    """the separator before it"""
-    leans: bool = False
-    """whether it leans on what was said before this sentence"""
-    instead: tuple[Clause, ...] = ()
-    """what its parts mean alone, where that is another thing: which of them was meant is asked"""
-    forbids: tuple[Mapping[str, Any], ...] = ()
-    """what a negated part would do otherwise; its amounts may be any"""
-
-    @property
-    def supposes(self) -> str | None:
-        """What it takes for granted beyond its actions."""
-        return self.filled.frame.supposes
-
-
-@dataclass(slots=True)
-class Divided:
-    """The clauses found; `failed` is the first fragment that nothing fits, if any."""
-
-    clauses: list[Clause] = field(default_factory=list)
-    failed: Fragment | None = None
 
 
 class Divider:
@@ -86,6 +46,7 @@ class Divider:
         self._lattice = lattice
         self._stretches = Stretches(lattice, vague, moods, work)
         self._composition = Composition(matcher, self._stretches)
+        self._singles = SingleClauses(matcher, lattice, self._stretches, self._composition)
 
     def divide(self, parts: Sequence[Fragment], kind: str | None = None) -> Divided:
         """The clauses of the fragments, or those up to the first that nothing fits.
@@ -113,7 +74,7 @@ class Divider:
                 divided.failed = parts[at]
                 return divided
             divided.clauses.append(replace(clause, after=parts[at].after))
-            context = _context(clause, context)
+            context = context_after(clause, context)
             at += used
         return divided
 
@@ -163,11 +124,11 @@ class Divider:
         """A part as a clause; one that only begins the sentence that it stands in goes with the next part."""
         part = parts[at]
         if not (at and context.verb):
-            return self._single(part, context), 1
+            return self._singles.read(part, context), 1
         if self._describes_hazard(parts, at):
             return None, 1
         if not self._begins_request(parts, at):
-            return self._single(part, context), 1
+            return self._singles.read(part, context), 1
         both = self._stretches.make(part.start, parts[at + 1].end, joined=True)
         found = self._matcher.match(both, verbless=False)
         if found is None or part.after not in (STOP, THEN):
@@ -196,11 +157,11 @@ class Divider:
             while at < last:
                 clause, used = self._join(parts[:last], at, context)
                 if clause is None:
-                    clause, used = self._single(parts[at], context), 1
+                    clause, used = self._singles.read(parts[at], context), 1
                 if clause is None:
                     return None
                 found.append(replace(clause, after=parts[at].after))
-                context = _context(clause, context)
+                context = context_after(clause, context)
                 at += used
         return found
 
@@ -301,188 +262,6 @@ class Divider:
         whole = (parts[a:b] for a, b in zip(begins, [*begins[1:], len(parts)], strict=True))
         stretches = (self._stretches.make(s[0].start, s[-1].end, joined=len(s) > 1) for s in whole)
         return all(self._matcher.match(stretch, verbless=False) is not None for stretch in stretches)
-
-    def _single(self, part: Fragment, context: Context) -> Clause | None:
-        """One fragment as a clause: by itself, leaning on the clause before, or without a verb."""
-        if part.after == EXCEPT or (part.after == OR and not context.negated):
-            return None
-        start, end = part.start, part.end
-        if context.negated and context.verb and self._contrasts(part):
-            instead = replace(context, negated=False)
-            found = self._matcher.match(self._stretches.make(start, end, instead), verbless=False)
-            if found is not None:
-                return Clause(start, end, *found)
-        plain = self._stretches.make(start, end)
-        found = self._matcher.match(plain, verbless=False)
-        if found is not None:
-            if found[0].frame.leaves_out and self._takes_out(part, context):
-                return None
-            clause = Clause(start, end, *found, negated=found[0].frame.leaves_out)
-            belongs = self._composition.also_leans(part, found, context)
-            return clause if belongs is None else replace(clause, instead=(Clause(start, end, *belongs),))
-        if NEGATION in plain.concepts:
-            return self._negate(part, context)
-        if part.after == BUT or (context.verb and self._says_again(part)):
-            return None
-        if context.placed and self._only_number(start, end):
-            return None
-        if context.verb and not self._calls(part):
-            leaning = self._stretches.make(start, end, context)
-            found = self._matcher.match(leaning, verbless=False)
-            if found is None and context.noun is not None and context.noun.concept.endswith(_WHOLE):
-                again = Context((*context.verb, context.noun), None, negated=context.negated)
-                found = self._matcher.match(self._stretches.make(start, end, again), verbless=False)
-            if found is not None and context.negated:
-                return Clause(start, end, found[0], [], negated=True)
-            if found is not None:
-                own = self._composition.differs(part, found)
-                return Clause(start, end, *found, instead=(Clause(start, end, *own),) if own else ())
-        if context.verbless and not (context.negated and (context.verb or part.after == OR)):
-            found = self._matcher.match(plain, verbless=True)
-            if found is not None:
-                return Clause(start, end, *found)
-            if context.noun is not None and self._may_lean(part, context):
-                noun = Context(noun=context.noun)
-                if context.distant:
-                    found = self._matcher.match(self._stretches.make(start, end, noun), verbless=False)
-                    if found is not None:
-                        return Clause(start, end, *found)
-                found = self._matcher.match(self._stretches.make(start, end, noun), verbless=True)
-                if found is not None:
-                    return Clause(start, end, *found, leans=context.distant)
-        return None
-
-    def _calls(self, part: Fragment) -> bool:
-        """Whether a part only calls for attention: "and then, please tell me, …", but not "then right"."""
-        whole = [edge for edge in self._lattice.edges[part.start] if edge.end == part.end]
-        calls = any(edge.concept == INTERJECTION for edge in whole)
-        return calls and all(edge.sense.value is None for edge in whole)
-
-    def _says_again(self, part: Fragment) -> bool:
-        """Whether a part only says how many were meant: "a cone, just one" is not two."""
-        if part.after != PAUSE or not self._contrasts(part):
-            return False
-        return not any(
-            isinstance(edge.sense.value, Amount) or edge.concept in _PLACED
-            for edge in self._lattice.between(part.start, part.end)
-        )
-
-    def _contrasts(self, part: Fragment) -> bool:
-        """Whether a part says what shall be done instead of what shall not: "…, just the cars"."""
-        return any(edge.sense.concept == CONTRAST for edge in self._lattice.edges[part.start])
-
-    def _may_lean(self, part: Fragment, context: Context) -> bool:
-        """Whether an amount without a noun may be of what was spoken of: not in "a pothole, just one"."""
-        if context.distant or part.after == PAUSE:
-            return self._says_more(part.start, part.end) or (
-                not context.distant and self._says_where(part.start, part.end)
-            )
-        return True
-
-    def _says_where(self, start: int, end: int) -> bool:
-        return any(edge.sense.concept in _PLACED for edge in self._lattice.between(start, end))
-
-    def _only_number(self, start: int, end: int) -> bool:
-        """Whether it says no more than a number: the "3" of "in lane 2 and 3"."""
-        said = {edge.concept for edge in self._lattice.between(start, end)}
-        return NUMBER in said and said.isdisjoint((*_PLACED, QUANTITY)) and not self._names_thing(start, end)
-
-    def _names_thing(self, start: int, end: int) -> bool:
-        return any(isinstance(edge.sense.value, Amount) for edge in self._lattice.between(start, end))
-
-    def _says_more(self, start: int, end: int) -> bool:
-        """Whether an amount in the tokens is one more of something."""
-        return any(
-            edge.sense.concept == QUANTITY and edge.sense.value in _FURTHER
-            for edge in self._lattice.between(start, end)
-        )
-
-    def _negate(self, part: Fragment, context: Context) -> Clause | None:
-        """A fragment that says what not to do: understood, then left out."""
-        start, end = part.start, part.end
-        if self._excepts(part, context) or self._says_nothing_but_no(part):
-            return None
-        for given in (Context(negated=True), Context(context.verb, context.noun, negated=True)):
-            found = self._matcher.match(
-                self._stretches.make(start, end, given, negation=True), verbless=False
-            )
-            if found is not None and given.verb and self._takes_place_out(part, context):
-                return None
-            if found is not None:
-                forbids = () if given.verb else tuple(found[1])
-                return Clause(start, end, found[0], [], negated=True, forbids=forbids)
-        return None
-
-    def _says_nothing_but_no(self, part: Fragment) -> bool:
-        """Whether a part has a negation and nothing that it could be about: "turn left, not, …"."""
-        covered = part.start
-        for edge in self._lattice.between(part.start, part.end):
-            if edge.sense.form or edge.concept not in (NEGATION, GLUE):
-                continue
-            if edge.start <= covered < edge.end:
-                covered = edge.end
-        return covered >= part.end
-
-    def _takes_place_out(self, part: Fragment, context: Context) -> bool:
-        """Whether it only says where something shall not be, which the place that was said leaves open."""
-        said = list(self._lattice.between(part.start, part.end))
-        where = _places(said)
-        return (
-            bool(where)
-            and not any(edge.concept.startswith("thing") for edge in said)
-            and not (where.keys() <= context.places.keys() and are_apart(context.places, where))
-        )
-
-    def _excepts(self, part: Fragment, context: Context) -> bool:
-        """Whether it takes something out of what was said: to leave it out would do more than was meant."""
-        said = list(self._lattice.between(part.start, part.end))
-        if any(edge.concept.startswith("v.") for edge in said):
-            return False
-        return self._takes_out(part, context)
-
-    def _takes_out(self, part: Fragment, context: Context) -> bool:
-        """Whether the things it names are among those that were said to be all: "…, but keep the cones"."""
-        said = list(self._lattice.between(part.start, part.end))
-        kinds = {edge.sense.value.of for edge in said if isinstance(edge.sense.value, Amount)}
-        whole = context.noun is not None and context.noun.concept.endswith(_WHOLE)
-        return context.everything or (
-            whole and context.noun is not None and context.noun.sense.value.of in kinds
-        )
-
-
-def _context(clause: Clause, before: Context) -> Context:
-    frame = clause.filled.frame
-    verb = tuple(
-        Edge(edge.start, edge.end, edge.sense)
-        for edge in clause.filled.slots
-        if edge.sense.concept in frame.inherits
-    )
-    amounts = [edge for edge in clause.filled.slots if isinstance(edge.sense.value, Amount)]
-    noun = amounts[-1] if amounts else before.noun
-    everything = any(edge.sense.concept == EVERYTHING for edge in clause.filled.slots)
-    everything = everything or any(action.get("kind") == EVERYTHING for action in clause.actions)
-    last = max(clause.filled.slots, key=lambda edge: edge.end, default=None)
-    placed = last is not None and last.concept in _PLACED
-    return Context(
-        verb,
-        noun,
-        frame.verbless or not frame.inherits,
-        clause.negated,
-        everything,
-        placed=placed,
-        asks=asks(clause.actions),
-        places=_places(clause.filled.slots),
-    )
-
-
-def _places(edges: Iterable[Edge]) -> dict[str, Any]:
-    """By what the places among some edges are given ("lane", the concept of any other), and what they are."""
-    places: dict[str, Any] = {}
-    for edge in edges:
-        if edge.concept in _PLACED:
-            value = edge.sense.value
-            places |= value if isinstance(value, dict) else {edge.concept: value}
-    return places
 
 
 def _same(apart: Sequence[Clause], joint: Clause) -> bool:

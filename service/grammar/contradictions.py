@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Any
 
 from service.actions.table import verbs_where
-from service.grammar.clauses import Clause
+from service.grammar.clause import Clause
 from service.grammar.lattice import Lattice
 from service.grammar.noun_phrases import Amount
 

@@ -38,9 +38,6 @@ REPEATED = "repeated"
 """What was done before, said again: "again"."""
 DROP = "drop"
 """What drops a question: its words may say nothing one by one."""
-_ASKED_ABOUT = "q.thing"
-"""Words that a question about a decision passes over: "back then"."""
-_LOOSE = (GLUE, _ASKED_ABOUT)
 _WHOLE_REQUESTS = (REPEATED, DROP)
 """Phrases that are requests though their words may be glue."""
 
@@ -68,7 +65,7 @@ def fragments(lattice: Lattice, start: int, end: int) -> list[Fragment]:
             if stop > end or concept == INTERJECTION:
                 continue
             if concept != SEPARATOR:
-                if concept in _LOOSE and at > begin and _passes_on(lattice, at, stop, end):
+                if stop - at > 1 and at > begin and _passes_on(lattice, stop, end):
                     continue
                 reach = max(reach, stop)
             elif separator is None or stop > separator.end:
@@ -123,12 +120,12 @@ def _begins_negation(lattice: Lattice, at: int) -> bool:
     return False
 
 
-def _passes_on(lattice: Lattice, start: int, stop: int, end: int) -> bool:
-    """Whether a filler is cut at its last word: "take that back then turn left", not "now then, …"."""
-    return _says_something(lattice, stop, end, marks=True) and any(
-        edge.concept == SEPARATOR and edge.sense.value == THEN and edge.end == stop
-        for edge in lattice.between(start + 1, stop)
+def _passes_on(lattice: Lattice, stop: int, end: int) -> bool:
+    """Whether a phrase is cut at its last word: "take that back then turn left", not "now then, …"."""
+    then = any(
+        e.end == stop and e.concept == SEPARATOR and e.sense.value == THEN for e in lattice.edges[stop - 1]
     )
+    return then and _says_something(lattice, stop, end, marks=True)
 
 
 def _past_interjection(lattice: Lattice, start: int, end: int) -> int:

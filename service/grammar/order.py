@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from service.grammar.clauses import Clause
+from service.grammar.clause import Clause
 from service.grammar.composition import asks
 from service.grammar.fragments import BUT, PAUSE, STOP, THEN
 from service.grammar.free_text import ORDER

@@ -7,7 +7,7 @@ request is done.
 
 from __future__ import annotations
 
-from service.grammar.clauses import Divided
+from service.grammar.clause import Divided
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.references import REFERS
 

@@ -7,18 +7,16 @@ from dataclasses import replace
 from typing import Any
 
 from service.actions.table import WhatIf, verbs_where
-from service.grammar.clauses import SCENARIO, Clause, Divided
+from service.grammar.clause import Clause, Divided
+from service.grammar.clauses import SCENARIO
 from service.grammar.composition import asks
 from service.grammar.fragments import PAUSE, STOP, Fragment
 from service.grammar.frames import Filled, Frame
 from service.grammar.lattice import GLUE, NAME, Edge, Lattice
 from service.grammar.paths import SEPARATOR
+from service.grammar.sentence_openings import IF, TEACH, THEN_WHAT, WHAT_IF, Beginnings
 
-WHAT_IF = "what_if"
 HAD_MOVED = "had_moved"
-IF = "if"
-THEN_WHAT = "then_what"
-TEACH = "teach"
 MEANS = "means"
 
 _OPENING = frozenset((WHAT_IF, IF, THEN_WHAT, TEACH))
@@ -89,43 +87,22 @@ def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[str, int, i
     whole = [(PAUSE, start, end)]
     if lattice.concepts.isdisjoint((WHAT_IF, IF)):
         return whole
-    found: list[tuple[str, int, int]] = []
-    after, begin, conditional = PAUSE, start, _opens(lattice, start, end)
-    if _teaches(lattice, start, end):
+    begins = Beginnings(lattice, start, end)
+    if begins.teaches(start):
         return whole
+    found: list[tuple[str, int, int]] = []
+    after, begin, conditional = PAUSE, start, begins.asks(start)
     for edge in sorted(lattice.between(start, end), key=lambda each: (each.start, -each.end)):
         if edge.concept != SEPARATOR or edge.start < begin:
             continue
-        if _teaches(lattice, edge.end, end):
+        if begins.teaches(edge.end):
             return whole
-        opens = _opens(lattice, edge.end, end)
+        opens = begins.asks(edge.end)
         if opens or (conditional and edge.sense.value == STOP):
             if begin < edge.start:
                 found.append((after, begin, edge.start))
             after, begin, conditional = str(edge.sense.value), edge.end, opens
     return [*found, (after, begin, end)] if begin < end else found
-
-
-def _teaches(lattice: Lattice, at: int, end: int) -> bool:
-    """Whether words that teach a phrase begin at a token."""
-    at = _past_glue(lattice, at, end)
-    return at < end and _longest(lattice, at, TEACH) is not None
-
-
-def _opens(lattice: Lattice, at: int, end: int) -> bool:
-    """Whether a what-if question begins at a token."""
-    at = _past_glue(lattice, at, end)
-    if at >= end:
-        return False
-    if _longest(lattice, at, WHAT_IF) is not None:
-        return True
-    if (asked := _longest(lattice, at, THEN_WHAT)) is not None:
-        after = _past_marks(lattice, asked.end, end)
-        return after < end and _longest(lattice, after, IF) is not None
-    if _longest(lattice, at, IF) is None:
-        return False
-    asked = (_longest(lattice, later, THEN_WHAT) for later in range(at + 1, end))
-    return any(each is not None and _ends_part(lattice, each.end, end) for each in asked)
 
 
 def _ends_part(lattice: Lattice, at: int, end: int) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
-from service.grammar.clauses import Clause, Divided
+from service.grammar.clause import Clause, Divided
 from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.paths import SEPARATOR
 

@@ -1,6 +1,6 @@
 """Sentences that are none of the simulator's business: by hand, from patterns, and from lists of words.
 
-The words are in `tests/data/language/other_domains/`; here is only how they are put together, the same every time.
+The words are in `tests/data/language/other_domains/`; here is only how they are put together, always alike.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def _filled(pattern: str, slots: Mapping[str, Any], chance: random.Random) -> st
 
 
 def short(count: int | None = None, seed: int = 0) -> list[str]:
-    """Sentences of one to four words: idioms, and verbs with objects of other worlds; or a sample of these."""
+    """Sentences of one to four words: idioms, and verbs with objects of other worlds, or some of these."""
     words = read_yaml(FOLDER / "words.yaml")
     pairs = product(words["frames"], words["verbs"].split(), words["objects"].split())
     made = [frame.format(verb=verb, object=each) for frame, verb, each in pairs]

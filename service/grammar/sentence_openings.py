@@ -1,0 +1,59 @@
+"""Where what-if questions and taught phrases begin in a text, for all its tokens at once.
+
+One pass from the end finds what each token is followed by, so the cost grows with the number of edges alone.
+"""
+
+from __future__ import annotations
+
+from service.grammar.lattice import GLUE, Lattice
+from service.grammar.paths import SEPARATOR
+
+WHAT_IF = "what_if"
+IF = "if"
+THEN_WHAT = "then_what"
+TEACH = "teach"
+
+_OPENERS = frozenset((WHAT_IF, IF, TEACH))
+_PASSED = (GLUE, SEPARATOR)
+
+
+class Beginnings:
+    """What begins at the tokens of `[start, end)`."""
+
+    def __init__(self, lattice: Lattice, start: int, end: int) -> None:
+        self._at: list[frozenset[str]] = [frozenset()] * (end + 1)
+        """The openers and questions that begin at each token."""
+        self._past = [end] * (end + 1)
+        """The first token from each that is neither glue nor a separator, or that opens something."""
+        past_all = [end] * (end + 1)
+        asked: list[tuple[int, int]] = []
+        for at in range(end - 1, start - 1, -1):
+            here = lattice.edges[at]
+            of = {edge[2][0] for edge in here}
+            self._at[at] = frozenset(of & {WHAT_IF, IF, THEN_WHAT, TEACH})
+            passed = max((edge[1] for edge in here if edge[2][0] in _PASSED), default=at)
+            past_all[at] = past_all[min(passed, end)] if passed > at else at
+            self._past[at] = self._past[min(passed, end)] if passed > at and of.isdisjoint(_OPENERS) else at
+            if THEN_WHAT in of:
+                asked.append((at, max(edge[1] for edge in here if edge[2][0] == THEN_WHAT)))
+        self._end = end
+        parts = [
+            at for at, stop in asked if stop >= end or past_all[stop] >= end or _separates(lattice, stop)
+        ]
+        self._last_asked = max(parts, default=-1)
+        self._asks_if = {at for at, stop in asked if stop < end and IF in self._at[past_all[stop]]}
+
+    def teaches(self, at: int) -> bool:
+        """Whether words that teach a phrase begin at a token."""
+        return TEACH in self._at[self._past[min(at, self._end)]]
+
+    def asks(self, at: int) -> bool:
+        """Whether a what-if question begins at a token."""
+        at = self._past[min(at, self._end)]
+        if WHAT_IF in self._at[at] or at in self._asks_if:
+            return True
+        return IF in self._at[at] and self._last_asked > at
+
+
+def _separates(lattice: Lattice, at: int) -> bool:
+    return any(edge.concept == SEPARATOR for edge in lattice.edges[at])
