@@ -92,6 +92,11 @@ class Repair:
         skipped = SKIPPED if lattice.concepts & _COMPARING else SKIPPED | {FOIL}
         edges = sorted((e for e in lattice.all() if e.concept == REPAIR), key=lambda e: (e.start, -e.end))
         for edge in edges:
+            if edge.sense.value == ALWAYS and edge.end == lattice.size:  # "turn left, no wait"
+                unfinished = cls(plain, tokens, lattice, edge, work)
+                if unfinished._says_something(0, unfinished._end):
+                    return unfinished
+        for edge in edges:
             if any(
                 other.end > edge.end and other.concept not in skipped for other in lattice.edges[edge.start]
             ):
@@ -123,7 +128,12 @@ class Repair:
         return self._written(self._edge.start, self._tail).strip(" ,;.")
 
     def readings(self, read: Read) -> list[Choice] | None:
-        """The sentences that may be meant; None where nothing was taken back after all."""
+        """The sentences that may be meant; None where nothing was taken back after all.
+
+        None are meant where nothing is said in the place of what was taken back.
+        """
+        if self._edge.end == self._lattice.size:
+            return []
         if self._value == DENIED:
             return self._without(read) or None
         if self._value == DROPPED:

@@ -41,8 +41,8 @@ def read_in_time(lattice: Lattice, divide: Divide) -> list[list[Clause]]:
         for told, main in _parts(lattice, mark):
             other, own = _requests(divide(*told, FORMS)), _requests(divide(*main, frozenset()))
             if other and own and (mark.sense.value not in DOING or _is_doing(other[0])):
-                both = [*other, *own] if mark.sense.value in AFTER else [*own, *other]
-                return [both, own]
+                both: list[Clause] = [*other, *own] if mark.sense.value in AFTER else [*own, *other]
+                return [both, list(own)]
     return []
 
 

@@ -24,9 +24,6 @@ DETAIL = "detail"
 _VERBS = ("v.", "want", "there_be", "q.")
 """Beginnings of the concepts of words that say what is to be done or known."""
 
-_LEANING = "detail"
-"""What questions are about that go on with the last explanation."""
-
 _ASIDE = "q.tell"
 """That of words beside a question, some of which stand in requests too: "please", "at"."""
 
