@@ -31,6 +31,8 @@ _OF_THINGS = "thing."
 """What the concepts of amounts of things begin with; "lane 2" is an amount of lanes."""
 
 _NONE = "thing.none"
+_FEWER = ("thing.fewer", "thing.fewer_bare")
+"""Amounts taken away from what is there; a road that is new has nothing yet."""
 _EVERYTHING = "everything"
 
 _LOSING = verbs_where(lambda traits: traits.loses)
@@ -51,7 +53,13 @@ def contradiction(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction 
     """The first contradiction of an utterance, if there is one."""
     if len(clauses) < 2:
         return None
-    return _settings(clauses) or _switches(clauses) or _left_out(clauses, lattice) or _none_of(clauses)
+    return (
+        _settings(clauses)
+        or _switches(clauses)
+        or _left_out(clauses, lattice)
+        or _none_of(clauses)
+        or _fewer(clauses)
+    )
 
 
 def _settings(clauses: Sequence[Clause]) -> Contradiction | None:
@@ -190,6 +198,15 @@ def _none_of(clauses: Sequence[Clause]) -> Contradiction | None:
             continue
         none = [{"do": "set_count", "kind": kind, "count": 0} for kind in kinds]
         return Contradiction((before, clause), ([*said, *none], said))
+    return None
+
+
+def _fewer(clauses: Sequence[Clause]) -> Contradiction | None:
+    """ "A new highway, two cars less": fewer than there are on a road that is not yet there."""
+    for before, clause in pairwise(clauses):
+        builds = any(action["do"] == "scenario" for action in before.actions)
+        if builds and clause.after != _IN_ORDER and any(e.concept in _FEWER for e in clause.filled.slots):
+            return Contradiction((before, clause))
     return None
 
 

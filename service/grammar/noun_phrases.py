@@ -42,6 +42,12 @@ _CHANGES = ("more", "fewer")
 _AMOUNTS = frozenset((NUMBER, QUANTITY))
 
 
+_MEASURES = frozenset(("length", "cells.counted"))
+_PLACING = "prep"
+_LONGEST_MEASURE = 4
+"""Tokens of the longest measure, or word before one, that is looked at."""
+
+
 @dataclass(frozen=True, slots=True)
 class Amount:
     """What a noun phrase says: how many of what."""
@@ -79,6 +85,8 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
         things = any(edge.concept.split(".")[1] == THINGS for edge in nouns)
         gathered = _gather(amounts, at, beyond=things)
         if any(edge.start < at < edge.end for edge in odd):  # of "every other car", "other car" is no noun
+            gathered.said.add(ODD)
+        if things and gathered.start == at and _measured(lattice, at):
             gathered.said.add(ODD)
         here = lattice.edges[at]
         lattice.edges[at] = [e for e in here if e[2][0] not in named and e[2][2] != DETERMINED]
@@ -235,6 +243,19 @@ def _fewer(said: set[str], vague: int) -> tuple[str, int | None]:
     if said & {"vague", "a"}:
         return ("fewer", vague if "vague" in said else 1)
     return ("fewer_bare", None)
+
+
+def _measured(lattice: Lattice, at: int) -> bool:
+    """Whether a bare measure stands before a noun, neither a place nor a count: "2 cells potholes"."""
+    before = lattice.between(max(0, at - _LONGEST_MEASURE), at)
+    starts = [edge.start for edge in before if edge.end == at and edge.concept in _MEASURES]
+    if not starts or any(
+        edge.concept in (NUMBER, COLON) for e in lattice.edges[at] for edge in _at(lattice, e.end)
+    ):
+        return False
+    start = min(starts)
+    placing = lattice.between(max(0, start - _LONGEST_MEASURE), start)
+    return not any(edge.end == start and edge.concept.startswith(_PLACING) for edge in placing)
 
 
 def _follows_noun(lattice: Lattice, at: int) -> bool:

@@ -154,6 +154,8 @@ class Repair:
             parsed = read(text)
             if not isinstance(parsed, Understood) or (self._points(end) and _adds(parsed.actions)):
                 continue
+            if self._belongs_to_the_rest(end, parsed, read):
+                continue
             if all(c.actions != parsed.actions for c in found):
                 found.append(Choice(text, parsed.actions))
         return found
@@ -173,6 +175,13 @@ class Repair:
             if not any(edge.concept.startswith(VERB) for edge in self._lattice.edges[end]):
                 return False
         return self._stands_elsewhere(end)
+
+    def _belongs_to_the_rest(self, end: int, parsed: Understood, read: Read) -> bool:
+        """Whether what would be dropped is part of the request after it: "instead of the car should stop"."""
+        if self._end > 0 or self._past_separators(end) > end:
+            return False
+        whole = read(self._written(self._again, self._lattice.size))
+        return isinstance(whole, Understood) and whole.actions == parsed.actions
 
     def _points(self, end: int) -> bool:
         """Whether things on the road are dropped: "instead of that cone" is more than not to add one."""

@@ -23,6 +23,8 @@ def named_before(lattice: Lattice, divided: Divided) -> tuple[Edge, Edge] | None
     part = divided.failed
     if part is None or not divided.clauses or REFERS not in lattice.concepts:
         return None
+    if divided.clauses[-1].negated:  # "never the seed, set it to 3"
+        return None
     words = [e for e in lattice.between(part.start, part.end) if e.concept == REFERS and e.sense.value == ONE]
     named = [e for e in divided.clauses[-1].filled.slots if e.concept in NAMED and e.start < e.end]
     if len({word.start for word in words}) != 1 or len(named) != 1:
