@@ -100,6 +100,9 @@ def _ids(edge: Edge) -> tuple[str, ...]:
 RAISING, LOWERING = "v.up", "v.down"
 """Concepts of verbs that say which way an amount goes."""
 
+THING = "thing"
+"""Beginning of the concepts of things; an action is about one, unless a frame makes one for each."""
+
 REMOVING = "v.remove"
 """Concept of verbs of taking away; one with a kind as its value takes away nothing else: "patch" potholes."""
 
@@ -211,7 +214,9 @@ class _Maker:
         slots = [turn] if turn and turn.concept.partition(".")[0] == name else self._filled.of(name)
         if not slots:
             return _ABSENT
-        if len(slots) > 1 and len({repr(edge.sense.value) for edge in slots}) > 1:
+        if len(slots) > 1 and (
+            name == THING or len({repr(edge.sense.value) for edge in slots}) > 1
+        ):  # "the pothole nearest to the pothole" is about two
             raise CannotBuild(f"two values for {name}")
         value = slots[0].sense.value
         if name in ("meant", "all_others"):

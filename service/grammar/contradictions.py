@@ -31,6 +31,7 @@ _OF_THINGS = "thing."
 """What the concepts of amounts of things begin with; "lane 2" is an amount of lanes."""
 
 _NONE = "thing.none"
+_SETTING = "param"
 _FEWER = ("thing.fewer", "thing.fewer_bare")
 """Amounts taken away from what is there; a road that is new has nothing yet."""
 _EVERYTHING = "everything"
@@ -146,7 +147,7 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
         if not clause.negated:
             continue
         for other in clauses:
-            if _does_it_all_the_same(other, clause):
+            if _does_it_all_the_same(other, clause) or _sets_the_same(other, clause):
                 return Contradiction((other, clause))
         if _says_how_many(clause, lattice):
             continue
@@ -175,6 +176,14 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
 def _does_it_all_the_same(clause: Clause, forbidding: Clause) -> bool:
     """Whether a request does the very same that another part forbids."""
     return any(action in forbidding.forbids and "count" not in action for action in clause.actions)
+
+
+def _sets_the_same(clause: Clause, forbidding: Clause) -> bool:
+    """Whether a request is about a setting that is only named in another part: "…, the sensor noise not"."""
+    if not forbidding.filled.frame.only_negated:
+        return False
+    named = {edge.sense.value for edge in forbidding.filled.slots if edge.concept == _SETTING}
+    return any(action.get("parameter") in named for action in clause.actions)
 
 
 def _touches(action: Mapping[str, Any], kinds: Set[object]) -> bool:

@@ -10,7 +10,7 @@ from service.actions.table import WhatIf, verbs_where
 from service.grammar.clause import Clause, Divided
 from service.grammar.clauses import SCENARIO
 from service.grammar.composition import asks
-from service.grammar.fragments import PAUSE, STOP, Fragment
+from service.grammar.fragments import OR, PAUSE, STOP, Fragment
 from service.grammar.frames import Filled, Frame
 from service.grammar.lattice import GLUE, NAME, Edge, Lattice
 from service.grammar.paths import SEPARATOR
@@ -25,6 +25,9 @@ _OPENING = frozenset((WHAT_IF, IF, THEN_WHAT, TEACH))
 TEACHING = verbs_where(lambda traits: traits.changes_aliases)
 NO_CHANGE = verbs_where(lambda traits: traits.what_if is WhatIf.INVALID)
 """Actions that cannot stand in a condition."""
+
+GOES_BACK = verbs_where(lambda traits: traits.what_if is WhatIf.REFUSED)
+"""Actions that go back in time; after a condition they are about the session: "…, but take that back"."""
 
 CONDITIONAL = frozenset({"cond", "past", "at"})
 """Forms in place inside a condition."""
@@ -46,6 +49,8 @@ def read_all(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided 
         if isinstance(result, Fragment):
             return result
         divided = Divided([result]) if result else divide(first, last, frozenset())
+        if after == OR and whole.clauses and divided.clauses and not _both_ask(whole, divided):
+            return Fragment(after, first, last)
         if whole.clauses and divided.clauses and _may_go_on(whole.clauses[-1], divided.clauses[0]):
             return Fragment(after, first, last)
         if result is not None and result.end < last:
@@ -62,6 +67,11 @@ def read_all(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided 
     return whole
 
 
+def _both_ask(before: Divided, after: Divided) -> bool:
+    """Whether "or" stands between questions, which are both answered; of two requests one is meant."""
+    return asks(before.clauses[-1].actions) and asks(after.clauses[0].actions)
+
+
 def _may_go_on(question: Clause, clause: Clause) -> bool:
     """Whether what has no verb may belong to the scenario that was supposed: "… a highway. 10 potholes"."""
     said = [each["do"] for action in question.actions for each in action.get("change", ())]
@@ -73,8 +83,10 @@ def _move_supposed(lattice: Lattice, start: int, end: int, divide: Divide) -> Di
     if HAD_MOVED not in lattice.concepts:
         return None
     tried = divide(start, end, frozenset())
-    asks = [value for clause in tried.clauses for value in clause.actions]
-    if tried.failed is not None or len(asks) != 1 or "move" not in asks[0] or asks[0].get("about") != WHAT_IF:
+    said = [value for clause in tried.clauses for value in clause.actions]
+    if tried.failed is not None or not said or "move" not in said[0] or said[0].get("about") != WHAT_IF:
+        return None
+    if not all(asks([value]) and value.get("about") != WHAT_IF for value in said[1:]):
         return None
     return tried
 
@@ -207,6 +219,8 @@ def _actions(
     values = [value for clause in divided.clauses for value in clause.actions]
     asks = any(clause.filled.frame.ask or clause.instead for clause in divided.clauses)
     if asks or not values or any(value["do"] in never for value in values):
+        return Fragment("pause", start, max(end, start + 1))
+    if never is NO_CHANGE and any(value["do"] in GOES_BACK for value in values[1:]):
         return Fragment("pause", start, max(end, start + 1))
     return values
 

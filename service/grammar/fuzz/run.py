@@ -8,11 +8,12 @@ from typing import Any
 
 from service.actions import dump
 from service.grammar.engine import Language
+from service.grammar.fragments import INTERJECTION
 from service.grammar.fuzz.excuses import excused
 from service.grammar.fuzz.mutations import NEUTRAL, Mutant, Mutations
 from service.grammar.fuzz.pairs import WRONG, all_pairs, random_pairs, verdict
 from service.grammar.fuzz.report import Report
-from service.grammar.fuzz.sayings import Saying, Sayings
+from service.grammar.fuzz.sayings import DETAIL, Saying, Sayings
 from service.grammar.fuzz.vocabulary import Vocabulary, vocabulary_of
 from service.grammar.parse_types import Ambiguous, Understood
 from service.grammar.paths import NEGATION
@@ -89,11 +90,17 @@ class Fuzzer:
         A question forbids nothing, a second negation may undo the first, and what is taken back or left out
         may as well be something else.
         """
-        if kind == NEUTRAL:  # thanks are one more
-            return [each for each in self._sayings.all if each.actions[-1]["do"] != "chat"]
+        if kind == NEUTRAL:  # thanks are one more, and what opens a sentence ("right, …") no longer does
+            return [each for each in self._sayings.all if self._may_be_asked_for(each)]
         puts_in = self._mutations is not None and self._mutations.inserts(kind)
         said = self._sayings.requests if puts_in else self._sayings.all
         return [each for each in said if not self._is_aside(each)]
+
+    def _may_be_asked_for(self, saying: Saying) -> bool:
+        """Whether it is no manners itself, goes on with nothing, and calls nobody."""
+        if any(action["do"] == "chat" or action.get("about") == DETAIL for action in saying.actions[-1:]):
+            return False
+        return INTERJECTION not in self._language.concepts(saying.text)
 
     def _is_aside(self, saying: Saying) -> bool:
         aside = (REPAIR, NEGATION)
