@@ -122,8 +122,8 @@ def _setting(action: Mapping[str, Any]) -> tuple[object, object] | None:
             return ("adjust", action["parameter"]), action["direction"]
         case "set_count":
             return ("count", action["kind"]), action["count"]
-        case "scenario" if "layout" in action:
-            return "layout", action["layout"]
+        case "scenario":
+            return "scenario", action
     return None
 
 

@@ -10,7 +10,7 @@ from service.actions.table import WhatIf, verbs_where
 from service.grammar.clause import Clause, Divided
 from service.grammar.clauses import SCENARIO
 from service.grammar.composition import asks
-from service.grammar.fragments import OR, PAUSE, STOP, Fragment
+from service.grammar.fragments import BUT, OR, PAUSE, STOP, Fragment
 from service.grammar.frames import Filled, Frame
 from service.grammar.lattice import GLUE, NAME, Edge, Lattice
 from service.grammar.paths import SEPARATOR
@@ -27,7 +27,7 @@ NO_CHANGE = verbs_where(lambda traits: traits.what_if is WhatIf.INVALID)
 """Actions that cannot stand in a condition."""
 
 GOES_BACK = verbs_where(lambda traits: traits.what_if is WhatIf.REFUSED)
-"""Actions that go back in time; after a condition they are about the session: "…, but take that back"."""
+"""Actions that go back in time; after a condition and "but" they are about the session."""
 
 CONDITIONAL = frozenset({"cond", "past", "at"})
 """Forms in place inside a condition."""
@@ -220,7 +220,8 @@ def _actions(
     asks = any(clause.filled.frame.ask or clause.instead for clause in divided.clauses)
     if asks or not values or any(value["do"] in never for value in values):
         return Fragment("pause", start, max(end, start + 1))
-    if never is NO_CHANGE and any(value["do"] in GOES_BACK for value in values[1:]):
+    turned = [value for clause in divided.clauses[1:] if clause.after == BUT for value in clause.actions]
+    if never is NO_CHANGE and any(value["do"] in GOES_BACK for value in turned):
         return Fragment("pause", start, max(end, start + 1))
     return values
 

@@ -24,8 +24,8 @@ DETAIL = "detail"
 _VERBS = ("v.", "want", "there_be", "q.")
 """Beginnings of the concepts of words that say what is to be done or known."""
 
-_ASIDE = "q.tell"
-"""That of words beside a question, some of which stand in requests too: "please", "at"."""
+_ASIDE = frozenset(("q.tell", "q.thing"))
+"""Those of words beside a question, some of which stand in requests too: "please", "at", "you"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +80,7 @@ class Sayings:
         if not isinstance(parsed, Understood) or parsed.corrections:
             return None
         asks = all(traits_of(action).is_question for action in parsed.actions)
-        said = self._language.concepts(text) - {_ASIDE}
+        said = self._language.concepts(text) - _ASIDE
         verb = any(each.startswith(_VERBS) for each in said)
         return Saying(text, tuple(dump(parsed.actions)), asks, verb)
 
