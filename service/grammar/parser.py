@@ -28,6 +28,7 @@ from service.grammar.pointing import add_pointing
 from service.grammar.references import add_referents
 from service.grammar.refusing import is_impossible
 from service.grammar.same_sentence import named_before
+from service.grammar.shared_place import place_for_all
 from service.grammar.small_talk import same_again, small_talk
 from service.grammar.spoken_tick import name_spoken_tick
 from service.grammar.subordinate import read_all
@@ -94,6 +95,8 @@ class Reading(Asking):
             return self._impossible(clauses)
         if self._topic.removed and clauses[0].leans:
             return self._more_of_what(actions) if asking else self._refuse([self._plain], ())
+        if (readings := place_for_all(clauses)) is not None:
+            return self._which_place(readings, asking=asking)
         supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
         return Understood(self._text, actions, self._corrections, supposes, spans)
 
