@@ -153,10 +153,15 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
     numbers = NumberWords.from_data(documents.numbers)
     frames = read_frames(documents.frames)
     free = frozenset(str(documents.frames.get("free", "")).split())
+    answers = Answers.from_data(documents.answers)
+    written = lexicon.words | numbers.words()
+    contractions = Contractions.from_data(words["contractions"]).with_spellings(
+        written, words["contractions"].get("spellings", ())
+    )
     return LanguageData(
         lexicon=lexicon,
         numbers=numbers,
-        contractions=Contractions.from_data(words["contractions"]),
+        contractions=contractions,
         typos=TypoRules.from_data(documents.typos),
         parameters=Parameters({name: takes.split() for name, takes in words["parameters"].items()}),
         frames=frames,
@@ -165,7 +170,7 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         sentences=documents.sentences,
         vague=int(words["vague"]),
         number_words=numbers.words(),
-        answers=Answers.from_data(documents.answers),
+        answers=answers,
         nouns=documents.frames["agree"],
         free=free,
         idle=idle(frames, free),

@@ -136,7 +136,7 @@ class Language:
         reading = Reading(self, text, plain, tokens, lattice, corrections, topic, work)
         parsed = reading.parse(asking=asking)
         if uncovered and asking and not kept:
-            unknown = [token for token in tokens if token.text.isalpha() and not self.data.knows(token.text)]
+            unknown = [each for each in tokens if self._may_be_a_typo(each, plain)]
             likely = lambda each: self.read(each, topic, work, asking=False)  # noqa: E731
             parsed = read_likely(text, plain, unknown, self.typos, likely) or parsed
         if kept and isinstance(parsed, Understood):
@@ -149,6 +149,12 @@ class Language:
         return (
             parsed if sure is None else answer_correction(self, text, plain, topic, parsed, work, sure=sure)
         )
+
+    def _may_be_a_typo(self, token: Token, plain: str) -> bool:
+        """Whether a token is an unknown word and no name."""
+        if not token.text.isalpha() or self.data.knows(token.text):
+            return False
+        return not self.typos.is_name(plain[token.start : token.end], plain[: token.start])
 
     def _ask_name(
         self,
@@ -281,10 +287,11 @@ class Language:
             word = token.text
             if token.digits or token.id or at in in_names or self.data.knows(word) or not word.isalpha():
                 continue
-            meant = self.typos.repair(word)
+            written = plain[token.start : token.end]
+            meant = None if self.typos.is_name(written, plain[: token.start]) else self.typos.repair(word)
             if meant is not None:
                 tokens[at] = with_text(token, meant)
-                corrections.append(Correction(plain[token.start : token.end], meant))
+                corrections.append(Correction(written, meant))
         return tokens, tuple(corrections)
 
     @cached_property

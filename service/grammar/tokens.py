@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from sim.types import Kind
@@ -70,6 +70,22 @@ class Contractions:
         words = {short: tuple(str(full).split()) for short, full in data["words"].items()}
         endings = tuple((end, tuple(str(full).split())) for end, full in data["endings"].items())
         return cls(words, endings, frozenset(str(data.get("ordinals", "")).split()))
+
+    def with_spellings(
+        self, words: Collection[str], spellings: Sequence[Mapping[str, str]]
+    ) -> Contractions:
+        """These, and the words in other spellings: "strasse" is "straße" where no other word is so written.
+
+        `spellings`: what letters are written as, in each of the ways that are usual.
+        """
+        found: dict[str, tuple[str, ...]] = {}
+        for letters in spellings:
+            table = str.maketrans(dict(letters))
+            for word in words:
+                other = word.translate(table)
+                if other not in words and other not in self.words:
+                    found.setdefault(other, (word,))
+        return replace(self, words={**found, **self.words})
 
     def expand(self, word: str) -> tuple[str, ...]:
         """The words a written word stands for; itself when it is no short form."""

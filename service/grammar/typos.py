@@ -19,13 +19,22 @@ class TypoRules:
     shortest_written: int
     shortest_meant: int
     never: frozenset[str]
+    capital_names: bool = False
+    """whether a word with a capital in the midst of a sentence is a name, which is never repaired"""
 
     @classmethod
     def from_data(cls, data: Mapping[str, Any]) -> TypoRules:
         """From the YAML's mapping."""
         return cls(
-            int(data["shortest_written"]), int(data["shortest_meant"]), frozenset(str(data["never"]).split())
+            int(data["shortest_written"]),
+            int(data["shortest_meant"]),
+            frozenset(str(data["never"]).split()),
+            bool(data.get("capital_names", False)),
         )
+
+
+_ENDS = ".!?:;\"'(“"
+"""Marks after which a sentence or a quotation begins."""
 
 
 class Typos:
@@ -47,6 +56,11 @@ class Typos:
             if len(word) >= rules.shortest_meant:
                 for shape in _shapes(word):
                     self._by_shape.setdefault(shape, []).append(word)
+
+    def is_name(self, written: str, before: str) -> bool:
+        """Whether a word is a name by its capital; `before`: what is written before it in the sentence."""
+        begins = not before.strip() or before.rstrip()[-1] in _ENDS
+        return self._rules.capital_names and written.istitle() and not begins
 
     def repair(self, word: str) -> str | None:
         """The one word meant by an unknown word, or None."""

@@ -126,11 +126,17 @@ def test_no_phrase_holds_a_word_that_is_always_written_out(german: Language) -> 
     assert sorted(german.data.lexicon.words & shortened.keys()) == []
 
 
-def test_every_word_with_an_umlaut_has_its_other_spelling(german: Language) -> None:
-    spellings = german.data.contractions.words
-    words = {word for word in german.data.lexicon.words if word.translate(UMLAUTS) != word}
-    lone = [word for word in words if word.translate(UMLAUTS) not in german.data.lexicon.words]
-    assert sorted(word for word in lone if spellings.get(word.translate(UMLAUTS)) != (word,)) == []
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [("groesser", "größer"), ("schlagloecher", "schlaglöcher"), ("strasse", "straße"), ("fussgänger", "fußgänger")],
+)
+def test_letters_that_a_keyboard_lacks_may_be_written_out(german: Language, written: str, meant: str) -> None:
+    assert german.data.contractions.expand(written) == (meant,)
+
+
+def test_no_word_stands_for_another_that_is_written_alike(german: Language) -> None:
+    words = german.data.lexicon.words
+    assert not [word for word in words if "'" not in word and german.data.contractions.expand(word) != (word,)]
 
 
 @pytest.mark.parametrize("polite", ["{}!", "  {}  ", "Bitte {}", "Äh, {}", "{}, bitte"])
