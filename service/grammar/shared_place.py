@@ -78,10 +78,8 @@ def _one_place(clauses: Sequence[Clause]) -> Mapping[str, Any] | None:
     if len(placed) != 1 or any("except" in action for action in actions):
         return None
     (clause,) = placed
-    if clause is clauses[-1]:
-        end = True
-    else:  # "in lane 2 remove the cars and the cones"
-        end = clause is clauses[0] and _place_comes_first(clause)
+    # The first has it at its end in "remove the cones in lane 2 and the cars", and then alone.
+    end = clause is clauses[-1] or (clause is clauses[0] and _place_comes_first(clause))
     where = clause.actions[0].get("where")
     shared = isinstance(where, Mapping) and set(where) <= set(_SHARED)
     return where if end and shared else None

@@ -71,9 +71,7 @@ class Contractions:
         endings = tuple((end, tuple(str(full).split())) for end, full in data["endings"].items())
         return cls(words, endings, frozenset(str(data.get("ordinals", "")).split()))
 
-    def with_spellings(
-        self, words: Collection[str], spellings: Sequence[Mapping[str, str]]
-    ) -> Contractions:
+    def with_spellings(self, words: Collection[str], spellings: Sequence[Mapping[str, str]]) -> Contractions:
         """These, and the words in other spellings: "strasse" is "straße" where no other word is so written.
 
         `spellings`: what letters are written as, in each of the ways that are usual.

@@ -128,7 +128,12 @@ def test_no_phrase_holds_a_word_that_is_always_written_out(german: Language) -> 
 
 @pytest.mark.parametrize(
     ("written", "meant"),
-    [("groesser", "größer"), ("schlagloecher", "schlaglöcher"), ("strasse", "straße"), ("fussgänger", "fußgänger")],
+    [
+        ("groesser", "größer"),
+        ("schlagloecher", "schlaglöcher"),
+        ("strasse", "straße"),
+        ("fussgänger", "fußgänger"),
+    ],
 )
 def test_letters_that_a_keyboard_lacks_may_be_written_out(german: Language, written: str, meant: str) -> None:
     assert german.data.contractions.expand(written) == (meant,)
@@ -136,7 +141,9 @@ def test_letters_that_a_keyboard_lacks_may_be_written_out(german: Language, writ
 
 def test_no_word_stands_for_another_that_is_written_alike(german: Language) -> None:
     words = german.data.lexicon.words
-    assert not [word for word in words if "'" not in word and german.data.contractions.expand(word) != (word,)]
+    assert not [
+        word for word in words if "'" not in word and german.data.contractions.expand(word) != (word,)
+    ]
 
 
 @pytest.mark.parametrize("polite", ["{}!", "  {}  ", "Bitte {}", "Äh, {}", "{}, bitte"])
