@@ -1,4 +1,4 @@
-"""Finds a place at one end of a list of things that may hold for all of them: "remove cars and cones in lane 2".
+"""Finds a place at one end of a list that may hold for all of it: "remove cars and cones in lane 2".
 
 The list has one verb, and only one of its parts has a place. Whether that place is meant for the others
 too cannot be told, so both readings are offered.
