@@ -2,8 +2,8 @@
 
 python -m tools.smallest_changes --decisions 2000
 
-An edit takes a thing away, blocks a cell beside the vehicle, or says another wish. Each is made by the actions
-of a person, and the decision is the one the run takes then.
+An edit takes a thing away, blocks a cell beside the vehicle, or says another wish. Each is made by the
+actions of a person, and the decision is the one the run takes then.
 """
 
 from __future__ import annotations

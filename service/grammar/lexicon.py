@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from service.grammar.numbers import Found
-from service.grammar.patterns import GAP, ID, NUMBER, ORDINAL, Words, expand
+from service.grammar.patterns import DECIMAL, GAP, ID, NUMBER, ORDINAL, Words, expand
 from service.grammar.tokens import Token
 
 
@@ -213,6 +213,8 @@ class Lexicon:
                 number = numbers[here]
                 if isinstance(number.value, int) and number.value >= 0:
                     open_paths.append((after, number.end, (*slots, number.value)))
+            if here in numbers and (after := node.next.get(DECIMAL)) is not None and numbers[here].value >= 0:
+                open_paths.append((after, numbers[here].end, (*slots, numbers[here].value)))
             if tokens[here].id and (after := node.next.get(ID)) is not None:
                 open_paths.append((after, here + 1, (*slots, tokens[here].text)))
             if here in ordinals and (after := node.next.get(ORDINAL)) is not None:
@@ -238,7 +240,7 @@ class Lexicon:
             following = node.next
             token = tokens[here]
             if (
-                (here in numbers and NUMBER in following)
+                (here in numbers and (NUMBER in following or DECIMAL in following))
                 or (token.id and ID in following)
                 or (here in ordinals and ORDINAL in following)
             ):

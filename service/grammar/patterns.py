@@ -1,9 +1,9 @@
 """The notation phrases are written in, and its expansion into plain word lists.
 
 `add [in], (take|get) rid of, lane {n}` is three phrases: `[..]` may be left out, `(a|b)` is one or the
-other, `{n}` stands for a number, `{nth}` for an ordinal, `{id}` for the id of a thing, `<name>` for a
-named list of phrases (a macro), `take ... away` for two parts with other words between. Commas separate
-phrases.
+other, `{n}` stands for a whole number, `{x}` for any number, `{nth}` for an ordinal, `{id}` for the id of a
+thing, `<name>` for a named list of phrases (a macro), `take ... away` for two parts with other words between.
+Commas separate phrases.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from collections.abc import Mapping
 Words = tuple[str, ...]
 
 NUMBER = "{n}"
+DECIMAL = "{x}"
 ORDINAL = "{nth}"
 ID = "{id}"
 GAP = "..."

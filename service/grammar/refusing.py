@@ -11,10 +11,8 @@ from service.grammar.accounting import restored
 from service.grammar.clause import Clause
 from service.grammar.fragments import Fragment
 from service.grammar.lattice import GLUE
-from service.grammar.parse_types import (
-    Reason,
-    Refused,
-)
+from service.grammar.noun_phrases import Amount
+from service.grammar.parse_types import Reason, Refused
 from service.grammar.subordinate import read_all
 from service.grammar.suggestions import meanings_of, turned_round
 from service.grammar.unparsed_span import Gap, GapFinder
@@ -101,7 +99,9 @@ class Refusing(Utterance):
 
 
 def is_impossible(value: object) -> bool:
-    """Whether a value is a number that no count or place can be: negative."""
+    """Whether a value is a number that no count or place can be: negative, or a part of a thing."""
+    if isinstance(value, Amount):
+        return isinstance(value.count, float) and not value.count.is_integer()
     return isinstance(value, int | float) and value < 0
 
 

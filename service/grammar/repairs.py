@@ -94,7 +94,7 @@ class Repair:
         for edge in edges:
             if edge.sense.value == ALWAYS and edge.end == lattice.size:  # "turn left, no wait"
                 unfinished = cls(plain, tokens, lattice, edge, work)
-                if unfinished._says_something(0, unfinished._end):
+                if unfinished._says_something(0, unfinished._end) and not unfinished._ends_a_phrase():
                     return unfinished
         for edge in edges:
             if any(
@@ -276,6 +276,14 @@ class Repair:
                 break
             at = self._past_separators(max(edge.end for edge in (*more, *fillers)))
         return at
+
+    def _ends_a_phrase(self) -> bool:
+        """Whether these are the last words of a longer phrase: "that is not what I meant"."""
+        start, end = self._edge.start, self._edge.end
+        return any(
+            each.start < start and each.end == end and each.concept not in SKIPPED
+            for each in self._lattice.all()
+        )
 
     def _begins_with_number(self) -> bool:
         after = self._lattice.edges[self._again] if self._again < self._lattice.size else []

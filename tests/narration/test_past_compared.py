@@ -111,7 +111,8 @@ def test_shorter_is_shorter_and_in_detail_is_not() -> None:
             full, short = talked(timeline, question, {"about": "detail", "how": "shorter"})
             _, long = talked(timeline, question, {"about": "detail", "how": "longer"})
             assert len(short["text"].split()) <= max(FEW_WORDS, len(full["text"].split(". ")[0].split()))
-            assert len(long["text"].split()) >= len(full["text"].split())
+            offer = " Say “look further”, and I go on."  # it is what the longer answer has done
+            assert len(long["text"].split()) >= len(full["text"].removesuffix(offer).split())
             shorter += len(short["text"]) < len(full["text"])
     assert shorter > 5
 

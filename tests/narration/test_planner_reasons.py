@@ -71,7 +71,7 @@ def test_the_line_of_the_log(rows: tuple[str, ...], said: str) -> None:
             "the car 5 m ahead in the third lane to my right would have come between me and the way on.",
         ),
         (NEARER, "The way on was nearer on the right: 2 columns against 3."),
-        (EVEN, "The way on was as near on either side, 2 columns, and left comes first."),
+        (EVEN, "Either side was as near (2 columns); left comes first."),
         (WALLED, "because no way led on from there."),
     ],
 )
