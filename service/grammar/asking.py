@@ -116,6 +116,16 @@ class Asking(Refusing):
             return Ambiguous(self._text, self._messages["which"], tuple(choices))
         return self._refuse([self._plain], (), asking=asking)
 
+    def _which_place(self, readings: Sequence[list[dict[str, Any]]], *, asking: bool) -> Parse:
+        """The question whether a place holds for all that a list names."""
+        try:
+            choices = [self._choice(each) for each in readings]
+        except (Unsayable, ValidationError):  # nothing to choose from
+            choices = []
+        if asking and len(choices) > 1:
+            return Ambiguous(self._text, self._messages["which"], tuple(choices))
+        return self._refuse([self._plain], (), asking=asking)
+
     def _choice(self, values: list[dict[str, Any]]) -> Choice:
         """Actions to choose, with a sentence that means them."""
         self._work.spend(CHOICE_STEPS * len(values))

@@ -24,6 +24,13 @@ _PASSING = verbs_where(lambda traits: traits.separates_settings)
 """Actions after which a setting may well be another: time has passed, or something was told or kept."""
 
 _AND = "and"
+
+SIMULTANEOUS = "simultaneous"
+"""Concept of words that say that two things are done together: "at the same time"."""
+
+_MOVING = ("drive", "step", "pause", "resume", "rewind", "reset")
+"""Actions of which there is one at a time."""
+
 _COUNTED = ("counted", ".exact", ".more", ".post")
 """Ends of the concepts of amounts that are a number."""
 
@@ -52,15 +59,17 @@ class Contradiction:
 
 def contradiction(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | None:
     """The first contradiction of an utterance, if there is one."""
-    if len(clauses) < 2:
+    if (both := _at_once(clauses, lattice)) is not None or len(clauses) < 2:
+        return both
+    return _settings(clauses) or _switches(clauses) or _left_out(clauses, lattice) or _none_of(clauses) or _fewer(clauses)
+
+
+def _at_once(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | None:
+    """Several moves that are said to be made at the same time; the vehicle makes one after the other."""
+    if SIMULTANEOUS not in lattice.concepts or any(clause.after == _IN_ORDER for clause in clauses[1:]):
         return None
-    return (
-        _settings(clauses)
-        or _switches(clauses)
-        or _left_out(clauses, lattice)
-        or _none_of(clauses)
-        or _fewer(clauses)
-    )
+    moves = [action["do"] in _MOVING for clause in clauses for action in clause.actions]
+    return Contradiction(tuple(clauses)) if sum(moves) > 1 else None
 
 
 def _settings(clauses: Sequence[Clause]) -> Contradiction | None:

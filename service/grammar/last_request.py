@@ -28,13 +28,15 @@ def steps_of_two(topic: Topic, *, put_back: bool) -> int:
 
     `put_back`: two things that were taken off the road or moved. 0 where it is not two.
     """
-    if topic.undone or not topic.steps:
+    asked = bool(topic.actions) and all(isinstance(each, Ask) for each in topic.actions)
+    actions, steps = (topic.changed, topic.changed_steps) if asked else (topic.actions, topic.steps)
+    if topic.undone or not steps:
         return 0
-    if topic.away[-1:] == (2,) or (not put_back and len(topic.actions) == 2):
-        return topic.steps
-    if len(topic.actions) != 1 or not topic.steps_before or (put_back and topic.away != (1, 1)):
+    if topic.away[-1:] == (2,) or (not put_back and len(actions) == 2):
+        return steps
+    if len(actions) != 1 or not topic.steps_before or (put_back and topic.away != (1, 1)):
         return 0
-    return topic.steps + topic.steps_before
+    return steps + topic.steps_before
 
 
 def asked_anew(done: tuple[Action, ...], alone: tuple[Action, ...]) -> tuple[Action, ...] | None:

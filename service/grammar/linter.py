@@ -35,6 +35,7 @@ ENGINE_CONCEPTS = frozenset(
         "repair",
         "contrast",
         "order",
+        "simultaneous",
         "chat",
         "chat_filler",
         "detail",

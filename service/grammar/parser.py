@@ -11,12 +11,12 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from service.actions import load
+from service.actions import Ask, load
 from service.grammar.asking import Asking, once
 from service.grammar.clause import Divided
 from service.grammar.contradictions import contradiction
 from service.grammar.fragments import Fragment
-from service.grammar.lattice import GLUE, Lattice
+from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.noun_phrases import QUANTITY, add_noun_phrases
 from service.grammar.order import orders
 from service.grammar.parse_types import (
@@ -27,7 +27,8 @@ from service.grammar.paths import ALLOWS, SEPARATOR
 from service.grammar.pointing import add_pointing
 from service.grammar.references import add_referents
 from service.grammar.refusing import is_impossible
-from service.grammar.same_sentence import named_before
+from service.grammar.same_sentence import asked_of_it, named_before
+from service.grammar.shared_place import place_for_all
 from service.grammar.small_talk import same_again, small_talk
 from service.grammar.spoken_tick import name_spoken_tick
 from service.grammar.subordinate import read_all
@@ -94,6 +95,12 @@ class Reading(Asking):
             return self._impossible(clauses)
         if self._topic.removed and clauses[0].leans:
             return self._more_of_what(actions) if asking else self._refuse([self._plain], ())
+        if (asked := asked_of_it(self._lattice, clauses)) is not None:
+            meant = self._put_in_place(*asked)
+            if meant is not None and self._explains(meant):
+                return meant
+        if (readings := place_for_all(clauses)) is not None:
+            return self._which_place(readings, asking=asking)
         supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
         return Understood(self._text, actions, self._corrections, supposes, spans)
 
@@ -129,7 +136,14 @@ class Reading(Asking):
         found = named_before(self._lattice, divided)
         if found is None:
             return None
-        word, named = found
+        return self._put_in_place(*found)
+
+    def _explains(self, meant: Understood) -> bool:
+        """Whether a question is about a setting or a word: what "it" stood for was meant."""
+        return any(isinstance(each, Ask) and each.about in ("term", "setting") for each in meant.actions)
+
+    def _put_in_place(self, word: Edge, named: Edge) -> Understood | None:
+        """The sentence with what a word stands for in its place."""
         start, end = self._tokens[word.start].start, self._tokens[word.end - 1].end
         whole = self._plain[:start] + self._written(named.start, named.end) + self._plain[end:]
         parsed = self._language.read(whole, self._topic, self._work, asking=False)

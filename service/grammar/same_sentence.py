@@ -7,7 +7,11 @@ request is done.
 
 from __future__ import annotations
 
-from service.grammar.clause import Divided
+from collections.abc import Sequence
+from itertools import pairwise
+
+from service.grammar.clause import Clause, Divided
+from service.grammar.composition import asks
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.references import REFERS
 
@@ -21,12 +25,36 @@ NAMED = ("param", "view", "term", "asked_about")
 def named_before(lattice: Lattice, divided: Divided) -> tuple[Edge, Edge] | None:
     """The word in the part that nothing fits and what it stands for; None where that is not one thing."""
     part = divided.failed
-    if part is None or not divided.clauses or REFERS not in lattice.concepts:
+    if part is None or not divided.clauses:
         return None
+<<<<<<< HEAD
     if divided.clauses[-1].negated:  # "never the seed, set it to 3"
         return None
     words = [e for e in lattice.between(part.start, part.end) if e.concept == REFERS and e.sense.value == ONE]
     named = [e for e in divided.clauses[-1].filled.slots if e.concept in NAMED and e.start < e.end]
+||||||| 5f50fc07
+    words = [e for e in lattice.between(part.start, part.end) if e.concept == REFERS and e.sense.value == ONE]
+    named = [e for e in divided.clauses[-1].filled.slots if e.concept in NAMED and e.start < e.end]
+=======
+    return _named_in(lattice, divided.clauses[-1], part.start, part.end)
+
+
+def asked_of_it(lattice: Lattice, clauses: Sequence[Clause]) -> tuple[Edge, Edge] | None:
+    """The same for a question that is understood by itself: "set courtesy to 0.3, what does it do?"."""
+    for before, clause in pairwise(clauses):
+        found = _named_in(lattice, before, clause.start, clause.end) if asks(clause.actions) else None
+        if found is not None:
+            return found
+    return None
+
+
+def _named_in(lattice: Lattice, before: Clause, start: int, end: int) -> tuple[Edge, Edge] | None:
+    """The word in some tokens that stands for one thing, and what a clause before them names."""
+    if REFERS not in lattice.concepts:
+        return None
+    words = [e for e in lattice.between(start, end) if e.concept == REFERS and e.sense.value == ONE]
+    named = [e for e in before.filled.slots if e.concept in NAMED and e.start < e.end]
+>>>>>>> talk2
     if len({word.start for word in words}) != 1 or len(named) != 1:
         return None
     return min(words, key=lambda word: word.end), named[0]
