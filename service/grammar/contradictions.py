@@ -61,7 +61,13 @@ def contradiction(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction 
     """The first contradiction of an utterance, if there is one."""
     if (both := _at_once(clauses, lattice)) is not None or len(clauses) < 2:
         return both
-    return _settings(clauses) or _switches(clauses) or _left_out(clauses, lattice) or _none_of(clauses) or _fewer(clauses)
+    return (
+        _settings(clauses)
+        or _switches(clauses)
+        or _left_out(clauses, lattice)
+        or _none_of(clauses)
+        or _fewer(clauses)
+    )
 
 
 def _at_once(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | None:
