@@ -27,15 +27,8 @@ def named_before(lattice: Lattice, divided: Divided) -> tuple[Edge, Edge] | None
     part = divided.failed
     if part is None or not divided.clauses:
         return None
-<<<<<<< HEAD
     if divided.clauses[-1].negated:  # "never the seed, set it to 3"
         return None
-    words = [e for e in lattice.between(part.start, part.end) if e.concept == REFERS and e.sense.value == ONE]
-    named = [e for e in divided.clauses[-1].filled.slots if e.concept in NAMED and e.start < e.end]
-||||||| 5f50fc07
-    words = [e for e in lattice.between(part.start, part.end) if e.concept == REFERS and e.sense.value == ONE]
-    named = [e for e in divided.clauses[-1].filled.slots if e.concept in NAMED and e.start < e.end]
-=======
     return _named_in(lattice, divided.clauses[-1], part.start, part.end)
 
 
@@ -54,7 +47,6 @@ def _named_in(lattice: Lattice, before: Clause, start: int, end: int) -> tuple[E
         return None
     words = [e for e in lattice.between(start, end) if e.concept == REFERS and e.sense.value == ONE]
     named = [e for e in before.filled.slots if e.concept in NAMED and e.start < e.end]
->>>>>>> talk2
     if len({word.start for word in words}) != 1 or len(named) != 1:
         return None
     return min(words, key=lambda word: word.end), named[0]
