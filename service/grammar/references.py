@@ -135,8 +135,8 @@ def _pronoun(edge: Edge, lattice: Lattice, topic: Topic) -> Edge | Unclear | Non
             return Edge(start, end, Sense("place", said))
         case {"nth": int() as number} if 0 < number <= len(topic.listed):
             if topic.listed[number - 1] in topic.gone:
-                left = tuple(name for name in topic.listed if name not in topic.gone)
-                return Unclear(start, end, left[-MAX_CANDIDATES:])
+                there = tuple(name for name in topic.listed if name not in topic.gone)
+                return Unclear(start, end, there[-MAX_CANDIDATES:])
             return thing_edge(start, end, topic.listed[number - 1 : number])
         case "opposite" if (other := turned(topic)) is not None:
             return Edge(start, end, Sense(REPEATED, dump(done_anew(topic, other))))
