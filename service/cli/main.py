@@ -44,7 +44,7 @@ COMMANDS: Final = {
     ),
     "quiz": (
         "service.cli.quiz",
-        "Predict what a planner does and why, before and after explanations; write the result to a file.",
+        "Predict what a planner does and why, before and after explanations.",
     ),
     "check-planner": ("service.cli.check_planner", "Try a planner's promises on many roads."),
 }

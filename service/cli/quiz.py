@@ -9,10 +9,20 @@ from typing import Annotated, Final
 import typer
 
 from service.cli.terminal import fail
+from service.narration.quiz.result import (
+    LEAST,
+    MOST,
+    SATISFACTION,
+    TRUST,
+    Given,
+    Result,
+    as_csv,
+    as_json,
+    score,
+)
+from service.narration.quiz.situations import MOST as MOST_SITUATIONS
+from service.narration.quiz.situations import PHASES, Situation, situations
 from service.narration.sayings import Sayings
-from service.quiz.result import LEAST, MOST, SATISFACTION, TRUST, Given, Result, as_csv, as_json, score
-from service.quiz.situations import MOST as MOST_SITUATIONS
-from service.quiz.situations import PHASES, Situation, situations
 from sim import planner_names
 from sim.types import MOVES
 

@@ -19,7 +19,7 @@ from service.narration.moments import Moments, Patterns
 from service.narration.next import Next
 from service.narration.others import Others
 from service.narration.planners import Planners
-from service.narration.quiz import Quizzes
+from service.narration.quiz.answer import Quizzes
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.settings import Settings

@@ -16,7 +16,7 @@ from sim.world.grid import Board
 
 SHUT_IN: Final = "shut in"
 """The kind of search under which the sweeps are kept."""
-ASKED: Final = "asked while shut in"
+ASKED: Final = "asked_shut_in"
 """The kind under which it is kept what was asked about."""
 
 

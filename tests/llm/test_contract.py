@@ -20,6 +20,7 @@ from sim.session.settings import AS_IT_IS
 DEFS: dict[str, Any] = ACTIONS.json_schema()["$defs"]
 FREE_TEXT = {
     ("Where", "id"),
+    ("Which", "id"),
     ("Landmark", "id"),
     ("Set", "value"),
     ("Ask", "value"),

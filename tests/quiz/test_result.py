@@ -11,9 +11,18 @@ import pytest
 from typer.testing import CliRunner
 
 from service.cli.main import cli
+from service.narration.quiz.result import (
+    SATISFACTION,
+    TRUST,
+    Given,
+    Result,
+    as_csv,
+    as_json,
+    scale_mean,
+    score,
+)
+from service.narration.quiz.situations import NOTHING, situations
 from service.narration.sayings import Sayings
-from service.quiz.result import SATISFACTION, TRUST, Given, Result, as_csv, as_json, scale_mean, score
-from service.quiz.situations import NOTHING, situations
 from sim.types import MOVES, Move
 from tests.support.service import Service
 

@@ -6,8 +6,8 @@ from collections import Counter
 
 import pytest
 
+from service.narration.quiz.situations import NOTHING, PHASES, situations
 from service.narration.sayings import Sayings
-from service.quiz.situations import NOTHING, PHASES, situations
 
 SAYINGS = Sayings.load()
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from service.narration.quiz.result import LEAST, MOST, REVERSED, SATISFACTION, TRUST, VERSION
+from service.narration.quiz.situations import PHASES, Situation
 from service.narration.sayings import Sayings
-from service.quiz.result import LEAST, MOST, REVERSED, SATISFACTION, TRUST, VERSION
-from service.quiz.situations import PHASES, Situation
 from sim.types import MOVES
 
 Json = dict[str, Any]

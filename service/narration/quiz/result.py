@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Final
 
-from service.quiz.situations import Phase, Situation
+from service.narration.quiz.situations import Phase, Situation
 from sim.types import Move
 
 VERSION: Final = 1

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from service.contract.encode.quiz import quiz_json
 from service.narration.answerer import Json, plain
+from service.narration.quiz.document import quiz_json
+from service.narration.quiz.situations import situations
 from service.narration.sayings import Sayings
-from service.quiz.situations import situations
 from service.sessions.facts import Asked
 
 COUNT = 4
