@@ -88,12 +88,12 @@ def test_asking_why(visit: Visit) -> None:
     assert answer.locator(".alternatives li").count() == 5
 
 
-def test_pointing_at_a_cause_shows_it_on_the_road(visit: Visit) -> None:
+def test_a_cause_is_shown_on_the_road_with_the_answer_and_when_pointed_at(visit: Visit) -> None:
     visitor = visit().bare()
     blocked_ahead(visitor)
-    cause = visitor.say("why did you do that?").locator(".cause").first
-    visitor.page.mouse.move(2, 2)
     plain = visitor.settled()
+    cause = visitor.say("why did you do that?").locator(".cause").first
+    visitor.settled(unlike=plain)
     cause.hover()
     visitor.settled(unlike=plain)
     visitor.page.mouse.move(2, 2)
