@@ -147,7 +147,7 @@ class SingleClauses:
         return None
 
     def _says_no_twice(self, part: Fragment) -> bool:
-        """Whether a part denies what leaves something out already: "but do not keep the cones", "no cars not"."""
+        """Whether a part denies what leaves something out already: "but do not keep the cones"."""
         said = self._lattice.between(part.start, part.end)
         return any(edge.concept in LEAVING_OUT for edge in said)
 
