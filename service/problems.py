@@ -244,6 +244,12 @@ class IdempotencyKeyReused(Invalid):
         )
 
 
+class TooMuchWork(Invalid):
+    """A request that would cost, or has cost, more than is spent on one."""
+
+    slug, title = "too-much-work", "Too much work"
+
+
 class RecordingMismatch(Invalid):
     """A recording whose replay leads to another digest than it names."""
 
@@ -288,6 +294,18 @@ class TooManyWrongKeys(ProblemError):
         )
 
 
+class TooMuchAtOnce(ProblemError):
+    """A client has as many dear requests under way as it may have, or the queue of all is full."""
+
+    status, slug, title = 429, "too-much-at-once", "Too much at once"
+
+    def __init__(self, why: str, wait_s: int) -> None:
+        """`why`: a sentence; `wait_s`: seconds until there may be room."""
+        super().__init__(
+            f"{why} Nothing was done. Try again in {wait_s} s.", headers={"Retry-After": str(wait_s)}
+        )
+
+
 class QuotaExceeded(ProblemError):
     """A client has as many sessions, or as much road, as its quota allows."""
 
@@ -313,6 +331,15 @@ class NotSaved(ProblemError):
         super().__init__(
             "The change could not be saved, so it was not made. Try again; the disk may be full."
         )
+
+
+class Stopped(ProblemError):
+    """The service stops, or whoever asked has gone, before the work was done; it left nothing behind."""
+
+    status, slug, title = 503, "stopped", "Stopped before it was done"
+
+    def __init__(self) -> None:
+        super().__init__("The work was stopped before it was done. Nothing was changed. Ask again.")
 
 
 class NotRestorable(ProblemError):
@@ -349,13 +376,16 @@ KINDS: tuple[type[ProblemError], ...] = (
     NotAQuestion,
     NotTeachable,
     IdempotencyKeyReused,
+    TooMuchWork,
     RecordingMismatch,
     TooManySessions,
     RateLimited,
     TooManyWrongKeys,
+    TooMuchAtOnce,
     QuotaExceeded,
     Internal,
     NotSaved,
+    Stopped,
     NotRestorable,
 )
 """Every problem that can be answered, for the documentation and its tests."""

@@ -40,6 +40,7 @@ from service.sessions.services import SessionServices
 from service.sessions.session import Session
 from service.sessions.transaction import check_step_ticks
 from service.store import BookmarkRecord, EntryRecord, SessionRecord, StoredResponse, StoreError
+from service.work.executor import WorkExecutor
 from sim.config import Config, ConfigError
 from sim.rules.versions import NewerRulesError
 from sim.session.timeline import Timeline
@@ -64,6 +65,11 @@ class SessionManager:
         self._stored_count = 0
         self.idle_times = IdleTimes()
         self.snapshots = SnapshotScheduler(services.store, services.settings)
+
+    @property
+    def work(self) -> WorkExecutor:
+        """The executor of dear work."""
+        return self._services.work
 
     @property
     def live_sessions(self) -> Mapping[str, Session]:

@@ -16,7 +16,6 @@ from threading import Event
 from typing import Any
 
 import structlog
-from anyio import to_thread
 
 from service.actions import Action
 from service.actions.table import traits_of
@@ -28,6 +27,7 @@ from service.sessions.conversation import Conversation
 from service.sessions.dry_run import is_possible
 from service.sessions.event_feed import CHANGED, EventFeed
 from service.sessions.facts import (
+    Asked,
     Fact,
     merge_views,
     parts_with_events,
@@ -60,7 +60,10 @@ from service.sessions.state_cache import StateCache
 from service.sessions.transaction import Transaction, check_step_ticks
 from service.sessions.undo_stack import UndoStack
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
-from service.store import SessionRecord, StoreError
+from service.sessions.work_estimate import answer_units, transaction_units
+from service.sessions.worker_calls import Performed, perform, perform_for_transfer
+from service.store import SessionRecord, StoredResponse, StoreError
+from service.work.units import THREAD
 from sim.actions import SetMode
 from sim.events import Event as RoadEvent
 from sim.explain.summary import long_to_tell
@@ -70,9 +73,6 @@ from sim.state import SimState, StepResult
 from sim.types import Mode
 
 _LOG = structlog.get_logger(__name__)
-
-THREAD_TICKS = 200
-"""Work of more ticks than this runs in a thread."""
 
 MAX_STREAMED_TICKS = 8
 """Steps of up to so many ticks are published tick by tick."""
@@ -301,7 +301,7 @@ class Session:
                 transaction = self.begin_transaction(utterance.language)
                 transaction.abandoned = abandoned or transaction.abandoned
                 with timed("apply"):
-                    facts = await self._perform(transaction, utterance)
+                    transaction, facts = await self._perform(transaction, utterance)
                 seen = await self.reachability.after_change(transaction.timeline.state, facts)
                 event = (
                     None if seen is None else self.reachability.event_for(seen, transaction.timeline.state)
@@ -325,17 +325,22 @@ class Session:
                 self._changing = False
                 self._run_due_tick()
 
-    async def _perform(self, transaction: Transaction, utterance: Utterance) -> tuple[Fact, ...]:
-        actions = utterance.actions
+    async def _perform(self, transaction: Transaction, utterance: Utterance) -> Performed:
+        """The transaction afterwards, which is another object where it was done in a process, and the facts."""
+        actions, work = utterance.actions, self.services.work
         sequence = self.sequence + 1
         try:
             if transaction.needs_external_planner(actions):
                 foreign = uses_external_planner(transaction.timeline) or names_external_planner(actions)
-                return await run_in_thread(foreign, STEPS_S, partial(transaction.perform, sequence, actions))
-            searches = any(traits_of(action).searches for action in actions)
-            if searches or transaction.estimate_ticks(actions) > THREAD_TICKS:
-                return await to_thread.run_sync(transaction.perform, sequence, actions)
-            return transaction.perform(sequence, actions)
+                done = partial(perform, transaction, sequence, actions)
+                return await run_in_thread(foreign, STEPS_S, done)
+            units = transaction_units(transaction, actions)
+            if units > THREAD:
+                transaction.talk = transaction.talk.for_transfer()
+                return await work.run(units, perform_for_transfer, transaction, sequence, actions)
+            if units or any(traits_of(action).searches for action in actions):
+                return await work.run(units, perform, transaction, sequence, actions)
+            return perform(transaction, sequence, actions)
         except UnknownName as problem:
             raise await add_other_session(
                 self.services.store, problem, utterance.actions, utterance.language or self.language
@@ -355,14 +360,25 @@ class Session:
             run = transaction.timeline.state
             notice = ReachabilityNotice(event, self.narrator.event(event, run), run)
         told = partial(make_outcome, self.narrator, self.run, utterance, facts, sequence, notice)
-        if not is_slow_to_answer(self.run.config.planner, facts):
+        timelines = question_timelines(facts)
+        if any(uses_external_planner(timeline) for timeline in timelines):
+            slow = is_slow_to_answer(self.run.config.planner, facts)
+            return await run_in_thread(True, QUESTION_S, told) if slow else told()
+        if not timelines:
             return told()
-        return await run_in_thread(
-            any(uses_external_planner(timeline) for timeline in question_timelines(facts)), QUESTION_S, told
+        units = answer_units(self.run, facts)
+        if units <= THREAD:
+            return await self.services.work.run(units, told)
+        facts = tuple(
+            replace(fact, talk=fact.talk.for_transfer()) if isinstance(fact, Asked) else fact
+            for fact in facts
+        )
+        return await self.services.work.run(
+            units, make_outcome, self.narrator, self.run, utterance, facts, sequence, notice
         )
 
     async def _store(self, outcome: Outcome, transaction: Transaction, preconditions: Preconditions) -> None:
-        kept = () if preconditions.answer is None else (preconditions.answer(outcome),)
+        kept = await self._answer_to_keep(outcome, preconditions)
         entry = make_entry(outcome, self.timeline.tick, transaction)
         if self.paused != self.log_position.paused:
             entry = replace(entry, paused=self.paused)
@@ -375,6 +391,16 @@ class Session:
             _LOG.error("a change was not saved", session=self.id, error=str(error))
             raise NotSaved from error
         self.log_position.append(entry)
+
+    async def _answer_to_keep(
+        self, outcome: Outcome, preconditions: Preconditions
+    ) -> tuple[StoredResponse, ...]:
+        """The answer to store with the change, made in a thread where it tells many ticks."""
+        if preconditions.answer is None:
+            return ()
+        if len(outcome.ticks) > MAX_STREAMED_TICKS:
+            return (await self.services.work.in_thread(preconditions.answer, outcome),)
+        return (preconditions.answer(outcome),)
 
     def _commit(self, transaction: Transaction, outcome: Outcome) -> None:
         """Take over a transaction's state and publish the outcome."""
