@@ -5,7 +5,8 @@ The HTTP and WebSocket layers set it for the request under way; work in worker p
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 
@@ -23,3 +24,13 @@ NOBODY = Asker("")
 """For work that the service does of itself: it counts for no client and is never cancelled."""
 
 CURRENT_ASKER: ContextVar[Asker] = ContextVar("current_asker", default=NOBODY)
+
+
+@contextmanager
+def of_nobody() -> Iterator[None]:
+    """Tasks begun here are the service's own, whoever asked first."""
+    token = CURRENT_ASKER.set(NOBODY)
+    try:
+        yield
+    finally:
+        CURRENT_ASKER.reset(token)

@@ -126,7 +126,7 @@ class WorkExecutor:
             await asyncio.wait((work, gone))
 
     async def _limited(self, client: str, packed: bytes) -> bytes:
-        seconds = self._settings.max_work_s
+        seconds = self._settings.max_work_s if client else None  # what is stored has to come back
         async with self.queue.worker(client) as worker:
             try:
                 async with asyncio.timeout(seconds):

@@ -1,21 +1,31 @@
-"""A worker process, from the service's side: starts it, sends it calls, kills it."""
+"""A worker process, from the service's side: starts it, sends it calls, kills it.
+
+A thread waits for each answer, without the interpreter lock; so no event loop owns the process, and one that
+nobody refers to any more is ended.
+"""
 
 from __future__ import annotations
 
-import asyncio
+import subprocess
 import sys
-from asyncio.subprocess import PIPE, Process
+import threading
+import weakref
 from contextlib import suppress
+from subprocess import PIPE, Popen
 from typing import Final
+
+from anyio import CapacityLimiter, to_thread
 
 from service.work.codec import LENGTH
 from service.work.worker_main import READY
 
-START_S: Final = 60.0
-"""Time for a process to start; a second is usual, on a busy machine more."""
+END_S: Final = 2.0
+"""How long a killed process is waited for; it takes milliseconds."""
 
-
-_PROGRAM: Final = "import sys; sys.path[:] = sys.argv[2:]; from service.work.worker_main import main; main(int(sys.argv[1]))"
+_PROGRAM: Final = (
+    "import sys; sys.path[:] = sys.argv[2:]; "
+    "from service.work.worker_main import main; main(int(sys.argv[1]))"
+)
 """It imports from where the service does, whatever folder that was started in."""
 
 
@@ -24,51 +34,77 @@ class WorkerLostError(Exception):
 
 
 class Worker:
-    """One worker process; started when it is first needed, and again after it was killed."""
+    """One worker process, for one call at a time; started when needed, and again after it was killed."""
 
     def __init__(self, memory_mb: int) -> None:
         self._memory_mb = memory_mb
-        self._process: Process | None = None
+        self._one = CapacityLimiter(1)
+        self._lock = threading.Lock()
+        self._kills = 0
+        self._process: Popen[bytes] | None = None
+        self._ending: weakref.finalize[[Popen[bytes]], Worker] | None = None
 
     @property
     def pid(self) -> int | None:
         """The process, while there is one."""
-        return None if self._process is None else self._process.pid
+        process = self._process
+        return None if process is None else process.pid
 
     async def call(self, packed: bytes) -> bytes:
         """The answer to a packed call. Raises `WorkerLostError`; kills the process when cancelled."""
         try:
-            process = self._process or await self._start()
-            assert process.stdin is not None
-            assert process.stdout is not None
-            process.stdin.write(LENGTH.pack(len(packed)))
-            process.stdin.write(packed)
-            await process.stdin.drain()
-            head = await process.stdout.readexactly(LENGTH.size)
-            return await process.stdout.readexactly(LENGTH.unpack(head)[0])
-        except (asyncio.IncompleteReadError, OSError) as error:
-            self.kill()
-            raise WorkerLostError("the worker process ended before it answered") from error
-        except BaseException:  # lost before it began, or cancelled: what is under way is of no use to anybody
+            return await to_thread.run_sync(
+                self._exchange, packed, self._kills, limiter=self._one, abandon_on_cancel=True
+            )
+        except BaseException:  # what is under way is of no use to anybody
             self.kill()
             raise
 
     def kill(self) -> None:
         """End the process at once, whatever it does."""
-        process, self._process = self._process, None
-        if process is not None:
-            with suppress(ProcessLookupError):
-                process.kill()
+        with self._lock:
+            self._kills += 1
+            self._process = None
+            ending, self._ending = self._ending, None
+        if ending is not None:
+            ending()
 
-    async def _start(self) -> Process:
-        command = [sys.executable, "-c", _PROGRAM, str(self._memory_mb), *sys.path]
-        self._process = process = await asyncio.create_subprocess_exec(*command, stdin=PIPE, stdout=PIPE)
-        assert process.stdout is not None
+    def _exchange(self, packed: bytes, kills: int) -> bytes:
         try:
-            async with asyncio.timeout(START_S):
-                said = await process.stdout.readline()
-        except TimeoutError:
-            said = b""
-        if said != READY:
+            process = self._process or self._start(kills)
+            assert process.stdin is not None
+            assert process.stdout is not None
+            process.stdin.write(LENGTH.pack(len(packed)))
+            process.stdin.write(packed)
+            process.stdin.flush()
+            head = process.stdout.read(LENGTH.size)
+            answer = process.stdout.read(LENGTH.unpack(head)[0]) if len(head) == LENGTH.size else b""
+        except (OSError, ValueError) as error:  # a pipe that is broken, or was closed by `kill`
+            raise WorkerLostError(str(error)) from error
+        if not answer:
+            raise WorkerLostError("the worker process ended before it answered")
+        return answer
+
+    def _start(self, kills: int) -> Popen[bytes]:
+        command = [sys.executable, "-c", _PROGRAM, str(self._memory_mb), *sys.path]
+        process = Popen(command, stdin=PIPE, stdout=PIPE)
+        with self._lock:
+            ending = weakref.finalize(self, _end, process)
+            if self._kills == kills:
+                self._process, self._ending = process, ending
+        if self._process is not process:
+            ending()
+        assert process.stdout is not None
+        if process.stdout.readline() != READY:
             raise WorkerLostError("the worker process did not start")
         return process
+
+
+def _end(process: Popen[bytes]) -> None:
+    process.kill()
+    with suppress(subprocess.TimeoutExpired):
+        process.wait(END_S)
+    for pipe in (process.stdin, process.stdout):
+        if pipe is not None:
+            with suppress(OSError, ValueError, RuntimeError):  # broken, or read by a thread at this moment
+                pipe.close()
