@@ -79,6 +79,10 @@ class Narrator:
         """What is said when the simulation has met a defect of its own."""
         return self._sayings.say("log", "events", "failed")
 
+    def slowed(self) -> str:
+        """What is said when decisions take longer than a tick lasts."""
+        return self._sayings.say("log", "events", "slowed")
+
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
         """What the vehicle does at a tick and why, in one line.
 

@@ -8,7 +8,7 @@ began is finished even if the client disconnects.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Sequence
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import replace
 from functools import partial
@@ -35,12 +35,14 @@ from service.sessions.facts import (
     question_timelines,
 )
 from service.sessions.fork import ForkPoint, is_partly_of_world
+from service.sessions.latest_decision import LatestDecision
 from service.sessions.outcome import is_slow_to_answer, make_entry, make_outcome
 from service.sessions.pending import PendingQuestion, Talk
 from service.sessions.persistence.log_position import LogPosition
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.reachability import ReachabilityMonitor
 from service.sessions.scheduler.external_planner import ExternalPlanner
+from service.sessions.scheduler.live_decision import LiveDecision, is_dear_to_decide
 from service.sessions.scheduler.offload import (
     QUESTION_S,
     STEPS_S,
@@ -61,9 +63,9 @@ from service.sessions.transaction import Transaction, check_step_ticks
 from service.sessions.undo_stack import UndoStack
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.sessions.work_estimate import answer_units, transaction_units
-from service.sessions.worker_calls import Performed, perform, perform_for_transfer
+from service.sessions.worker_calls import Performed, decision_before, perform, perform_for_transfer
 from service.store import SessionRecord, StoredResponse, StoreError
-from service.work.units import THREAD
+from service.work.units import LEAST_CELLS, THREAD, state_tick_units
 from sim.actions import SetMode
 from sim.events import Event as RoadEvent
 from sim.explain.summary import long_to_tell
@@ -100,8 +102,10 @@ class Session:
         self.subscribers = self.feed.subscribers
         self.tick_batch = self.feed.tick_batch
         self._external_planner = ExternalPlanner(self._on_decision)
+        self._live_decision = LiveDecision(services.work.live, self._on_decision, self._on_no_decision)
         self.reachability = ReachabilityMonitor(lambda: self.run, self.feed.announce_reachability)
         self._state_cache = StateCache()
+        self._latest: LatestDecision | None = None
         self.services = services
         self.narrator = services.narrator.in_language(record.language)
         self._lock = asyncio.Lock()
@@ -144,8 +148,31 @@ class Session:
         return self._state_cache.encode(self.run, self.status)
 
     def latest_decision(self) -> tuple[Decision, SimState] | None:
-        """The decision that led to the present state, and the state it was taken in."""
-        return self.decision_at(self.timeline.tick - 1) if self.timeline.tick else None
+        """The decision that led to the present state, and the state it was taken in.
+
+        None also where taking it anew would be dear: `load_latest_decision` does that.
+        """
+        tick = self.timeline.tick
+        if not tick:
+            return None
+        if self._latest is None or self._latest.key != (self.sequence, tick):
+            run = self.timeline.at(tick - 1)
+            if is_dear_to_decide(run):
+                return None
+            self._latest = LatestDecision((self.sequence, tick), run, self.timeline.decided(run))
+        decision = self._latest.decision
+        return None if decision is None else (decision, self._latest.state)
+
+    async def load_latest_decision(self) -> None:
+        """Take the decision that led to the present state anew where it is dear and not known any more."""
+        tick, timeline = self.timeline.tick, self.timeline.copy()
+        key = self.sequence, tick
+        if not tick or (self._latest is not None and self._latest.key == key):
+            return
+        if is_dear_to_decide(timeline.state):
+            units = state_tick_units(timeline.state) + timeline.work_to(tick - 1) * LEAST_CELLS
+            run, decision = await self.services.work.run(units, decision_before, timeline)
+            self._latest = LatestDecision(key, run, decision)
 
     def decision_at(self, tick: int) -> tuple[Decision, SimState] | None:
         """The decision at a past tick and the state it was taken in; None while a result stood."""
@@ -174,9 +201,27 @@ class Session:
                 return
             if self._external_planner.busy or self._external_planner.ask(self.timeline.state):
                 return  # a planner of another package decides this one, and nobody waits for it here
+            if self._live_decision.busy:
+                self._say_slowed()
+                return
+            if self._live_decision.ask(self.timeline.state):
+                return
             self._tick_once()
 
-    def _on_decision(self, run: SimState, decision: Decision) -> None:
+    def _say_slowed(self) -> None:
+        """Say once that time runs slower than it should, since decisions take longer than a tick."""
+        decision = self._live_decision
+        if not decision.slowed:
+            decision.slowed = True
+            line = self.feed.log_line(self.timeline.tick, "slowed", self.narrator.slowed())
+            self.feed.publish_change(None, line.text, (), [line])
+
+    def _on_no_decision(self, run: SimState, fault: str) -> None:
+        """Switch to manual driving where the session's own planner did not answer in time."""
+        if not (self.closed or self._changing or self.paused) and self.timeline.state is run:
+            self._start_manual_override(PlannerSilentError(run.config.planner, fault))
+
+    def _on_decision(self, run: SimState, decision: Decision | Mapping[str, Decision]) -> None:
         """Tick with the decision of an external planner, or with its fallback."""
         if self.closed or self._changing or self.paused or self.timeline.state is not run:
             return  # asked anew when its turn comes
@@ -186,13 +231,14 @@ class Session:
             self.services.clock.remove(self)
             self.tick_failed(error)
 
-    def _tick_once(self, decided: Decision | None = None) -> None:
+    def _tick_once(self, decided: Decision | Mapping[str, Decision] | None = None) -> None:
         before = self.timeline.state
         try:
             tick = self.timeline.advance(decided)
         except PlannerSilentError as silence:
             self._start_manual_override(silence)
             return
+        self._latest = LatestDecision((self.sequence, self.timeline.tick), before, tick.decision)
         if tick.events and long_to_tell(tick.state):
             self.feed.narrate_in_thread(tick.state, tick)
             self.feed.publish_tick(before, tick, ())
@@ -228,12 +274,14 @@ class Session:
     def retire(self) -> None:
         """Stop for good, at once; whoever holds the session must ask the manager for it again."""
         self.closed = True
+        self._live_decision.cancel()
         self.services.clock.remove(self)
 
     async def close(self) -> None:
         """Stop for good, after the change under way; later changes raise `UnknownSession`."""
         async with self._lock:
             self.closed = True
+            self._live_decision.cancel()
             self.set_paused(True)
 
     def announce(self, kind: str, text: str | None, reply: str) -> None:
@@ -409,6 +457,7 @@ class Session:
             self.services.clock.remove(self)  # the turn it waits for is at the old speed
         step = transaction.undo_stack.is_step_after(self.undo_stack)
         self.adopt(transaction, outcome.sequence, performed_actions(outcome.utterance.actions, outcome.facts))
+        self._latest = LatestDecision.of_steps(outcome)
         self.set_paused(transaction.paused)
         self.conversation.record(outcome, step=step)
         lines = [self.feed.log_line(began, CHANGED, outcome.done, transient=False)]

@@ -11,6 +11,7 @@ from service.sessions.facts import Fact, Stepped
 from service.sessions.transaction import Transaction
 from sim.decide import decide_each
 from sim.plan import Decision
+from sim.session.timeline import Timeline
 from sim.state import EgoStep, SimState, StepResult
 
 Performed = tuple[Transaction, tuple[Fact, ...]]
@@ -30,6 +31,12 @@ def perform_for_transfer(transaction: Transaction, sequence: int, actions: Seque
 def decide(state: SimState) -> dict[str, Decision]:
     """The decision of each ego in a state."""
     return {id: step.decision for id, step in decide_each(state).items()}
+
+
+def decision_before(timeline: Timeline) -> tuple[SimState, Decision | None]:
+    """The state before the present one, and the decision taken in it."""
+    run = timeline.at(timeline.tick - 1)
+    return run, timeline.decided(run)
 
 
 def _without_percepts(fact: Fact) -> Fact:

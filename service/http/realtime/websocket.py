@@ -69,6 +69,7 @@ async def stream(socket: WebSocket, session_id: str) -> None:
             await _send(socket, _error(problem))
             await socket.close(_CODES.get(problem.status, 1013))
         return
+    await session.load_latest_decision()
     missed = session.subscribers.messages_since(socket.query_params.get("after", ""))
     subscriber = session.subscribers.subscribe(missed or (), direct_write_of(socket.scope))
     first = hello(context, session) if missed is None else None
