@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from dataclasses import replace
 from functools import partial
 from threading import Event
@@ -20,7 +20,7 @@ import structlog
 from service.actions import Action
 from service.actions.table import traits_of
 from service.contract.encode.state import SessionStatus
-from service.problems import NotSaved, UnknownName, UnknownSession
+from service.problems import NotSaved, ProblemError, UnknownName, UnknownSession
 from service.server_timing import part as timed
 from service.sessions.bookmarks import add_other_session
 from service.sessions.conversation import Conversation
@@ -171,8 +171,9 @@ class Session:
             return
         if is_dear_to_decide(timeline.state):
             units = state_tick_units(timeline.state) + timeline.work_to(tick - 1) * LEAST_CELLS
-            run, decision = await self.services.work.run(units, decision_before, timeline)
-            self._latest = LatestDecision(key, run, decision)
+            with suppress(ProblemError):  # whoever asked gets the rest without it
+                run, decision = await self.services.work.run(units, decision_before, timeline)
+                self._latest = LatestDecision(key, run, decision)
 
     def decision_at(self, tick: int) -> tuple[Decision, SimState] | None:
         """The decision at a past tick and the state it was taken in; None while a result stood."""

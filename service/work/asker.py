@@ -16,7 +16,7 @@ class Asker:
     """One client that waits for an answer."""
 
     client: str
-    gone: Callable[[], Awaitable[None]] | None = None
+    gone: Callable[[], Awaitable[object]] | None = None
     """returns once the client has hung up; None where that cannot be known"""
 
 
