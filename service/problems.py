@@ -23,13 +23,16 @@
     │   ├── NotAQuestion                 understood, but `ask` only answers
     │   ├── NotTeachable                 a phrase that cannot be taught, or forgotten
     │   ├── IdempotencyKeyReused         an idempotency key that was another request's
+    │   ├── TooMuchWork                  it would cost more than a request may, or has
     │   └── RecordingMismatch            replayed to another digest than it says
     ├── TooManySessions             429  the limit of live sessions is reached: `Retry-After`
     ├── RateLimited                 429  a client asks too often: `Retry-After`
     ├── TooManyWrongKeys            429  a client tries keys: `Retry-After`
+    ├── TooMuchAtOnce               429  too many dear requests are under way: `Retry-After`
     ├── QuotaExceeded               429  a client has as much as it may have
     ├── Internal                    500  a defect here; says nothing of its inside
     ├── NotSaved                    503  the store did not take it; nothing was changed
+    ├── Stopped                     503  work was ended before it was done; nothing was changed
     └── NotRestorable               503  what is kept of the session cannot be replayed
 
 `sessions` raises these without knowing HTTP; `api` turns them into responses, and the stream into

@@ -99,7 +99,10 @@ class WorkExecutor:
         asker = CURRENT_ASKER.get()
         with self.queue.place(asker.client, units):
             answer = await self._while_asked(asker, packed)
-        result: Result = await self.in_thread(unpack_result, answer)
+        try:
+            result: Result = await self.in_thread(unpack_result, answer)
+        except MemoryError:
+            raise self._lost() from None
         self.fates["done"] += 1
         return result
 
@@ -140,11 +143,15 @@ class WorkExecutor:
             except WorkerLostError as error:
                 if self.queue.stopped:
                     raise Stopped from error
-                self.fates["lost"] += 1
-                raise TooMuchWork(
-                    f"The process that did this ended; it may have needed more than "
-                    f"{self._settings.max_work_memory_mb} MB (ROADTALK_MAX_WORK_MEMORY_MB). Nothing was done."
-                ) from error
+                raise self._lost() from error
+
+    def _lost(self) -> TooMuchWork:
+        self.fates["lost"] += 1
+        most = self._settings.max_work_memory_mb
+        return TooMuchWork(
+            f"The process that did this ran out of memory or was ended; at most {most} MB are used "
+            "(ROADTALK_MAX_WORK_MEMORY_MB). Nothing was done."
+        )
 
 
 async def _owned(task: asyncio.Task[bytes]) -> bytes:

@@ -6,7 +6,7 @@ import os
 import signal
 import time
 
-from service.problems import Invalid, PreconditionFailed
+from service.problems import FieldProblem, Invalid, PreconditionFailed
 from sim.session.errors import EditError
 
 
@@ -33,7 +33,11 @@ def take_memory(megabytes: int) -> int:
 
 def refuse(how: str) -> None:
     raise {
-        "invalid": Invalid("no", errors=()),
+        "invalid": Invalid("no", errors=[FieldProblem("here", "no")]),
         "stale": PreconditionFailed(3),
-        "edit": EditError("off_road", "cell", cell=(1, 2)),
+        "edit": EditError("no_such_lane", "where", lane=9, lanes=8),
     }[how]
+
+
+def niceness() -> int:
+    return os.nice(0)
