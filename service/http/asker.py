@@ -1,4 +1,4 @@
-"""Says to the executor of work who asks: the client of a request, and whether it still waits for the answer."""
+"""Tells the executor of work who asks: the client of a request, and whether it still waits."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ UNNAMED = "unnamed"
 """Counts all clients without an address as one: those of a Unix socket."""
 
 HALF_CLOSED: Final = "roadtalk.half_closed"
-"""The key of an event in a scope's `extensions`: the client has sent its end of file, and some time has passed."""
+"""The key of an event in a scope's `extensions`: the client has half-closed some time ago."""
 
 
 @contextmanager

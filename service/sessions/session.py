@@ -375,7 +375,7 @@ class Session:
                 self._run_due_tick()
 
     async def _perform(self, transaction: Transaction, utterance: Utterance) -> Performed:
-        """The transaction afterwards, which is another object where it was done in a process, and the facts."""
+        """The transaction afterwards, another object where a process did it, and the facts."""
         actions, work = utterance.actions, self.services.work
         sequence = self.sequence + 1
         try:

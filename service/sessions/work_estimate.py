@@ -59,7 +59,7 @@ def answer_units(run: SimState, facts: tuple[Fact, ...]) -> int:
 
 
 def log_units(config: Config, entries: Sequence[EntryRecord], tick: int) -> int:
-    """Units of replaying a log from its beginning to a tick, with all that it undoes and redoes on the way."""
+    """Units of replaying a log from its beginning to a tick, with all that it undoes and redoes."""
     log = _Log(config)
     for entry in entries:
         log.run_to(entry.tick)
@@ -86,7 +86,7 @@ class _Log:
             self._tick = tick
 
     def perform(self, action: Any) -> None:
-        """One action as it is stored; one that is not well formed costs nothing here, and is refused later."""
+        """One action as it is stored; one that is not well formed costs nothing, and is refused later."""
         if not isinstance(action, dict):
             return
         self.units += ENTRY_TICKS * self._tick_units()

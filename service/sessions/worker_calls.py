@@ -1,4 +1,4 @@
-"""What sessions have done in worker processes: functions that can be pickled, as can all that they are given."""
+"""What sessions have done in worker processes: functions that can be pickled, with all they take."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Work: what dear requests cost, how much of it is done, and where: on the event loop, in a thread, in a process."""
+"""Work: what requests cost, how much of it is done, and where: event loop, thread or worker process."""

@@ -1,7 +1,7 @@
 """Frames between the service and a worker process: pickled calls and results. For any thread.
 
-Both ends are the same program with the same code, started by the service itself; nothing that a client sent is
-ever unpickled.
+Both ends are the same program with the same code, started by the service itself; nothing that a client sent
+is ever unpickled.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The executor of work: on the event loop, in a thread or in a worker process, by what it is estimated to cost.
+"""The executor of work: on the event loop, in a thread or in a worker process, by its estimated cost.
 
 What is small is done at once. What is larger leaves the event loop to others. What is larger still goes to a
 worker process, where it is limited in time and memory, and ends when whoever asked hangs up. What would cost
@@ -137,8 +137,8 @@ class WorkExecutor:
             except TimeoutError:
                 self.fates["stopped"] += 1
                 raise TooMuchWork(
-                    f"This took more than {seconds:g} s, the most for one request (ROADTALK_MAX_WORK_S), and was "
-                    "stopped. Nothing was done."
+                    f"This took more than {seconds:g} s, the most for one request (ROADTALK_MAX_WORK_S), "
+                    "and was stopped. Nothing was done."
                 ) from None
             except WorkerLostError as error:
                 if self.queue.stopped:

@@ -50,12 +50,12 @@ class WorkQueue:
 
     @contextmanager
     def place(self, client: str, units: int) -> Iterator[None]:
-        """A place in the queue; `client`: empty for the service itself. Raises `TooMuchAtOnce` or `Stopped`."""
+        """A place in the queue; `client`: empty for the service. Raises `TooMuchAtOnce` or `Stopped`."""
         if self.stopped:
             raise Stopped
         pieces = self._pieces.get(client, 0)
         if client and pieces >= self._per_client:
-            why = f"You have {pieces} dear requests under way, the most there may be (ROADTALK_MAX_CLIENT_WORK)."
+            why = f"You have {pieces} dear requests under way, which is the limit (ROADTALK_MAX_CLIENT_WORK)."
             raise TooMuchAtOnce(why, self._wait_s())
         if client and self.waiting >= MOST_WAITING:
             raise TooMuchAtOnce(

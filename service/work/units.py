@@ -26,8 +26,8 @@ INLINE: Final = 20_000
 """Work up to this is done on the event loop: about 5 ms."""
 
 THREAD: Final = 400_000
-"""Work up to this is done in a thread, where it delays the event loop by the switch interval; more in a worker
-process."""
+"""Work up to this is done in a thread, where it delays the event loop by the switch interval; more in a
+worker process."""
 
 
 def tick_units(cells: int, planner: str, egos: int = 1) -> int:

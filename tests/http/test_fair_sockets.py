@@ -1,4 +1,4 @@
-"""One socket that sends much delays nobody: a message at a time, a turn for others after each, few waiting."""
+"""One socket that sends much delays nobody: a message at a time, a turn for others after each."""
 
 from __future__ import annotations
 

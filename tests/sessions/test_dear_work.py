@@ -93,7 +93,7 @@ async def test_a_recording_that_is_wrong_is_refused_as_ever() -> None:
     session = await talked(service)
     recording = await recorded(session, service)
     wrong = replace(recording, tick=recording.tick + 1)
-    with pytest.raises(Invalid, match="digest|ends"):
+    with pytest.raises(Invalid, match=r"digest|ends"):
         await service.manager.create(None, ROAD, paused=True, recorded=wrong)
     bad = replace(recording.entries[0], actions=[{"do": "fly"}])
     with pytest.raises(Invalid) as refused:
@@ -133,7 +133,7 @@ async def test_a_step_whose_client_has_gone_leaves_the_session_as_it_was(
 async def test_too_dear_a_step_is_refused_before_it_begins() -> None:
     service = Service(max_work=1_000_000)
     session = await service.session(Config(seed=1, columns=64, rows=156, planner="astar"), paused=True)
-    with pytest.raises(TooMuchWork, match="159,744,000 units.*1,000,000.*ROADTALK_MAX_WORK"):
+    with pytest.raises(TooMuchWork, match=r"159,744,000 units.*1,000,000.*ROADTALK_MAX_WORK"):
         await session.change(Utterance(actions=(Step(ticks=1_000),)))
     assert session.timeline.tick == 0
 

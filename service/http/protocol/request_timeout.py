@@ -4,8 +4,8 @@ uvicorn waits for ever once a first byte has come. The timeout covers reading al
 a WebSocket or event stream is ended by it.
 
 A client that half-closes after sending (`nc -N`) still gets its response; uvicorn takes it for disconnected.
-A client that has really gone looks the same, so after `HALF_CLOSED_S` GET and HEAD are given up, and dear work
-for other requests is ended (`service.http.asker`): its answer says that nothing was changed.
+A client that has really gone looks the same, so after `HALF_CLOSED_S` GET and HEAD are given up, and dear
+work for other requests is ended (`service.http.asker`): its answer says that nothing was changed.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ REQUEST_TIMEOUT_S = 60.0
 """Seconds for a request from its first byte to its last, and for a new connection's first request."""
 
 HALF_CLOSED_S = 2.0
-"""Seconds that the answer to a GET of a half-closed connection may take, and dear work for any other request."""
+"""Seconds that the answer to a GET of a half-closed connection may take, and dear work for others."""
 
 
 class TimeoutProtocol(HttpToolsProtocol):
@@ -55,8 +55,8 @@ class TimeoutProtocol(HttpToolsProtocol):
     def on_headers_complete(self) -> None:
         """Hands the request on, with an event for when its client seems to have gone."""
         super().on_headers_complete()
-        extensions = self.scope.setdefault("extensions", {})
-        extensions[HALF_CLOSED] = asyncio.Event()  # type: ignore[index]
+        extensions: dict[str, object] = self.scope.setdefault("extensions", {})  # type: ignore[assignment]
+        extensions[HALF_CLOSED] = asyncio.Event()
 
     def on_message_complete(self) -> None:
         """Handles the last byte of a request."""

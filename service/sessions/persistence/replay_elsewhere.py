@@ -1,4 +1,4 @@
-"""Replays in a worker process: a whole log is performed there, and what it led to comes back as a snapshot."""
+"""Replays in a worker process: a log is performed there, and what it led to comes back as a snapshot."""
 
 from __future__ import annotations
 

@@ -93,8 +93,7 @@ async def test_a_decision_that_never_comes_hands_the_vehicle_over(lane: _Lane) -
     await settle()
     lane.asked.pop()[2].set_exception(NoDecisionError("did not answer within 30 s"))
     await settle()
-    while session.busy:
-        await asyncio.sleep(0)
+    await asyncio.gather(*session._tasks)
     assert session.run.mode is Mode.MANUAL
     assert "did not answer within 30 s" in session.log.latest(1)[0].text
 
@@ -112,9 +111,10 @@ async def test_a_session_that_ends_drops_its_decision(lane: _Lane) -> None:
 async def test_a_real_process_decides_alike() -> None:
     service = Service()
     session = await service.session(DEAR)
+    subscriber = session.subscribers.subscribe(())
     service.clock.tick()
-    while session.timeline.tick == 0:
-        await asyncio.sleep(0.001)
+    await asyncio.wait_for(subscriber.next(), 60)
+    assert session.timeline.tick == 1
     latest = session.latest_decision()
     assert latest is not None
     decision: Decision = latest[0]
