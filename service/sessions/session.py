@@ -65,7 +65,7 @@ from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.sessions.work_estimate import answer_units, transaction_units
 from service.sessions.worker_calls import Performed, decision_before, perform, perform_for_transfer
 from service.store import SessionRecord, StoredResponse, StoreError
-from service.work.units import LEAST_CELLS, THREAD, state_tick_units
+from service.work.units import THREAD, move_units, state_tick_units
 from sim.actions import SetMode
 from sim.events import Event as RoadEvent
 from sim.explain.summary import long_to_tell
@@ -170,7 +170,7 @@ class Session:
         if not tick or (self._latest is not None and self._latest.key == key):
             return
         if is_dear_to_decide(timeline.state):
-            units = state_tick_units(timeline.state) + timeline.work_to(tick - 1) * LEAST_CELLS
+            units = state_tick_units(timeline.state) + timeline.work_to(tick - 1) * move_units(timeline.state)
             with suppress(ProblemError):  # whoever asked gets the rest without it
                 run, decision = await self.services.work.run(units, decision_before, timeline)
                 self._latest = LatestDecision(key, run, decision)

@@ -37,6 +37,12 @@ def tick_units(cells: int, planner: str, egos: int = 1) -> int:
     return max(base, traits.work * cells if traits.plans_to_goal else traits.work * base) * egos
 
 
+def move_units(state: SimState) -> int:
+    """Units of one tick whose moves are known already, so that nothing is decided."""
+    road = state.world.road
+    return LEAST_CELLS + road.columns * road.rows // CELLS_A_UNIT
+
+
 def state_tick_units(state: SimState) -> int:
     """Units of the next tick of a state."""
     road, config = state.world.road, state.config

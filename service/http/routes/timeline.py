@@ -18,7 +18,7 @@ from service.http.responses import json_response
 from service.http.route import api_router
 from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
-from service.work.units import LEAST_CELLS, state_tick_units
+from service.work.units import move_units, state_tick_units
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Cell, Move, Outcome
@@ -62,7 +62,9 @@ async def read_timeline(
     stop = min(way.tick, first + limit)
     changed = {entry.tick for entry in way.entries if first <= entry.tick <= stop}
     # Moves are noted, so that hardly a tick is decided again.
-    units = (stop - first + way.work_to(first)) * LEAST_CELLS + len(changed) * state_tick_units(way.state)
+    units = (stop - first + way.work_to(first)) * move_units(way.state) + len(changed) * state_tick_units(
+        way.state
+    )
     moves, marks = await here.manager.work.run(units, _scan, way, first, stop)
     return json_response(
         {"from": first, "now": way.tick, "moves": moves, "marks": marks, "more": stop < way.tick}

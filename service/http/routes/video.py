@@ -19,7 +19,7 @@ from service.http.route import api_router
 from service.http.routes.frame import View
 from service.http.validation import invalid
 from service.problems import FieldProblem, Invalid, NotAvailable, NotRestorable, UnknownSession
-from service.work.units import LEAST_CELLS, config_tick_units, state_tick_units
+from service.work.units import config_tick_units, move_units, state_tick_units
 from sim.render.video import FPS, VideoMissingError, frame_count, has_video, render_video
 from sim.session.timeline import Timeline
 from sim.state import SimState
@@ -99,7 +99,11 @@ def _units(timeline: Timeline, start: int, end: int, film: _Film) -> int:
     ticks = end - start + 1
     frames = min(film.most, 1 + int(ticks * timeline.state.config.step_seconds * film.fps))
     decided = ticks * max(state_tick_units(timeline.state), config_tick_units(timeline.config))
-    return decided + timeline.work_to(start) * LEAST_CELLS + frames * film.side**2 // PIXELS_A_UNIT
+    return (
+        decided
+        + timeline.work_to(start) * move_units(timeline.state)
+        + frames * film.side**2 // PIXELS_A_UNIT
+    )
 
 
 def _make(timeline: Timeline, start: int, end: int, film: _Film) -> bytes:

@@ -70,16 +70,16 @@ class LiveDecision:
 
 def is_dear_turn(run: SimState) -> bool:
     """Whether the next tick costs more than is done on the event loop, and a planner decides it."""
-    return is_dear_to_decide(run) and any(
-        not ego.queue and ego.mode is not Mode.MANUAL for ego in run.egos.values()
-    )
+    if run.world.outcome is not Outcome.RUNNING or not is_dear_to_decide(run):
+        return False
+    return any(not ego.queue and ego.mode is not Mode.MANUAL for ego in run.egos.values())
 
 
 def is_dear_to_decide(run: SimState) -> bool:
-    """Whether deciding a state costs more than is done on the event loop; no matter by whom it is driven.
+    """Whether deciding such a state costs more than is done on the event loop.
 
     Planners of other packages are asked in processes of their own.
     """
-    if run.world.outcome is not Outcome.RUNNING or state_tick_units(run) <= INLINE:
+    if state_tick_units(run) <= INLINE:
         return False
     return not any(is_foreign(run.config_of(id).planner) for id in run.egos)
