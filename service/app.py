@@ -27,6 +27,7 @@ from service.http.not_found import NO_WEBSOCKET
 from service.http.realtime import sse, websocket
 from service.http.routes import (
     advice,
+    backup,
     bookmarks,
     changes,
     commands,
@@ -107,6 +108,7 @@ RESOURCES = (
     regret,
     counterfactual,
     metrics,
+    backup,
 )
 """The modules whose `router` the application has."""
 

@@ -10,6 +10,7 @@
     │   └── UnknownDecision
     ├── MethodNotAllowed            405  the route exists, the method does not
     ├── Ambiguous                   409  could mean several things: `choices`
+    ├── BackupUnderWay              409  one backup at a time
     ├── PreconditionFailed          412  the session was changed since: `sequence`
     ├── ContentTooLarge             413  more bytes than are read
     ├── UnsupportedMediaType        415  the content type is not JSON
@@ -143,6 +144,15 @@ class Ambiguous(ProblemError):
     """A text could mean several things; `choices` are sentences to choose from."""
 
     status, slug, title = 409, "ambiguous", "This could mean several things"
+
+
+class BackupUnderWay(ProblemError):
+    """A backup is being made or read already."""
+
+    status, slug, title = 409, "backup-under-way", "A backup is under way"
+
+    def __init__(self) -> None:
+        super().__init__("Somebody else is being sent a backup. One is made at a time; try again later.")
 
 
 class PreconditionFailed(ProblemError):
@@ -336,6 +346,7 @@ KINDS: tuple[type[ProblemError], ...] = (
     UnknownDecision,
     MethodNotAllowed,
     Ambiguous,
+    BackupUnderWay,
     PreconditionFailed,
     ContentTooLarge,
     UnsupportedMediaType,

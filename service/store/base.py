@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
+from pathlib import Path
 from typing import Any, Protocol
 
 from service.resources import DEFAULT_LANGUAGE
@@ -16,6 +17,10 @@ from service.resources import DEFAULT_LANGUAGE
 
 class StoreError(Exception):
     """The store failed; the message is for whoever runs the service."""
+
+
+class LockedError(StoreError):
+    """Another process has the database open."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -211,3 +216,6 @@ class Store(Protocol):
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
         """All phrases of an owner, by language and key."""
+
+    async def backup(self, target: Path) -> None:
+        """Copy everything into a new SQLite file (`service.store.backup`), while others use the store."""

@@ -7,6 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
+
+from anyio import to_thread
 
 from service.store.base import (
     BookmarkRecord,
@@ -192,3 +195,26 @@ class MemoryStore:
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
         """See `Store.phrases`."""
         return [each for key, each in sorted(self._phrases.items()) if each.owner == owner]
+
+    async def backup(self, target: Path) -> None:
+        """See `Store.backup`."""
+        # Imported here: a service in memory has no use for SQLAlchemy otherwise.
+        from service.store import rows, tables
+        from service.store.backup import write_file
+
+        sessions = [
+            rows.session_to_row(each) | {"number": each.number, "unseen": each.id in self._unseen}
+            for each in self._sessions.values()
+        ]
+        entries = [
+            rows.entry_to_row(of, entry) for of, own in self._entries.items() for entry in own.values()
+        ]
+        contents = [
+            (tables.SESSIONS, sessions),
+            (tables.ENTRIES, entries),
+            (tables.MOMENTS, [rows.bookmark_to_row(each) for each in self._moments.values()]),
+            (tables.SNAPSHOTS, [rows.snapshot_to_row(each) for each in self._snapshots.values()]),
+            (tables.PHRASES, [rows.phrase_to_row(each) for each in self._phrases.values()]),
+            (tables.IDEMPOTENCY, [rows.response_to_row(each) for each in self._answers.values()]),
+        ]
+        await to_thread.run_sync(write_file, target, contents)
