@@ -31,6 +31,7 @@
     ├── QuotaExceeded               429  a client has as much as it may have
     ├── Internal                    500  a defect here; says nothing of its inside
     ├── NotSaved                    503  the store did not take it; nothing was changed
+    ├── BackupFailed                503  no backup was made
     └── NotRestorable               503  what is kept of the session cannot be replayed
 
 `sessions` raises these without knowing HTTP; `api` turns them into responses, and the stream into
@@ -325,6 +326,17 @@ class NotSaved(ProblemError):
         )
 
 
+class BackupFailed(ProblemError):
+    """No backup could be made; nothing else is concerned."""
+
+    status, slug, title = 503, "backup-failed", "No backup was made"
+
+    def __init__(self) -> None:
+        super().__init__(
+            "No backup could be made; the service's log says why. It needs as much free room as the database."
+        )
+
+
 class NotRestorable(ProblemError):
     """A stored session cannot be replayed."""
 
@@ -367,6 +379,7 @@ KINDS: tuple[type[ProblemError], ...] = (
     QuotaExceeded,
     Internal,
     NotSaved,
+    BackupFailed,
     NotRestorable,
 )
 """Every problem that can be answered, for the documentation and its tests."""

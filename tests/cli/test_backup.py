@@ -39,7 +39,7 @@ def test_a_backup_of_a_running_service_is_restored_after_a_kill(
 ) -> None:
     sessions = [running.session(seed=seed, paused=True) for seed in (7, 11)]
     for each in sessions:
-        body = {"actions": [{"do": "add", "kind": "cone", "count": 3}]}
+        body = {"actions": [{"do": "add", "kind": "barrier", "count": 3}]}
         httpx.post(f"{running.url}/api/v1/sessions/{each}/actions", json=body, timeout=60).raise_for_status()
     expected = states(running.url, sessions)
     copy, database = tmp_path / "copy.db", f"sqlite:///{tmp_path}/roads.db"

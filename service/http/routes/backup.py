@@ -22,7 +22,7 @@ from service.http.deps import Here
 from service.http.errors import problem_responses
 from service.http.route import api_router
 from service.http.route_policy import policy
-from service.problems import BackupUnderWay, NotSaved
+from service.problems import BackupFailed, BackupUnderWay
 from service.store import StoreError
 from service.store.place import backup_place, database_mark
 
@@ -56,7 +56,7 @@ _FILE: dict[int | str, dict[str, Any]] = {
     "/backup",
     response_class=Response,
     summary="Everything that is kept, as one file",
-    responses=_FILE | problem_responses(BackupUnderWay, NotSaved),
+    responses=_FILE | problem_responses(BackupUnderWay, BackupFailed),
 )
 @policy(entity_tag=False)
 async def read_backup(here: Here) -> Response:
@@ -85,7 +85,7 @@ async def read_backup(here: Here) -> Response:
         here.metrics.count_backup("failed")
         if isinstance(error, StoreError | OSError):
             _LOG.error("no backup was made", error=str(error))
-            raise NotSaved from error
+            raise BackupFailed from error
         raise
     here.metrics.count_backup("made")
     _LOG.info("a backup was made", bytes=size)
