@@ -126,6 +126,9 @@ class Metrics:
         self._snapshots: Callable[[], Mapping[str, int]] = dict
         registry.register(cast(Any, self))
         refusals = Counter("roadtalk_refusals", "Problems answered over HTTP", ("kind",), registry=registry)
+        self._expired = Counter(
+            "roadtalk_expired_sessions", "Stored sessions deleted as unused", registry=registry
+        )
         backups = Counter("roadtalk_backups", "Backups, by what became of them", ("fate",), registry=registry)
         self._backups = {fate: backups.labels(fate) for fate in BACKUP_FATES}
         self._refusals = {slug: refusals.labels(slug) for slug in sorted(_SLUGS)}
@@ -144,6 +147,10 @@ class Metrics:
     def count_refusal(self, slug: str) -> None:
         """Counts a problem that is answered."""
         self._refusals[slug].inc()
+
+    def count_expired(self) -> None:
+        """Counts a session that was deleted because nobody had used it."""
+        self._expired.inc()
 
     def count_backup(self, fate: BackupFate) -> None:
         """Counts a backup that was made, or was not."""

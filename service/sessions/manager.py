@@ -60,6 +60,7 @@ class SessionManager:
         self._services = services
         self._live: dict[str, Session] = {}
         self._restoring: dict[str, asyncio.Task[Session]] = {}
+        self._expiring: set[str] = set()
         self._creating = 0
         self._stored_count = 0
         self.idle_times = IdleTimes()
@@ -192,6 +193,8 @@ class SessionManager:
         if live is not None:
             self.idle_times.touch(session_id)
             return live
+        if session_id in self._expiring:
+            raise UnknownSession
         # All who ask at once wait for the same replay.
         task = self._restoring.get(session_id)
         if task is None:
@@ -234,6 +237,20 @@ class SessionManager:
         if session is not None:
             await session.close()
             session.subscribers.close()
+
+    async def expire(self, session_id: str) -> bool:
+        """Delete a stored session unless somebody uses it; returns whether it was deleted."""
+        if session_id in self._live or session_id in self._restoring:
+            return False
+        self._expiring.add(session_id)
+        try:
+            found = await self._services.store.delete(session_id)
+        finally:
+            self._expiring.discard(session_id)
+        if found:
+            self._stored_count -= 1
+            self.snapshots.forget(session_id)
+        return found
 
     def evictor(self) -> Evictor:
         """The evictor of idle sessions."""

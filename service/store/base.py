@@ -6,7 +6,7 @@ from those. A snapshot may be stored beside it: it saves time, and losing it los
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
@@ -175,7 +175,16 @@ class Store(Protocol):
         """The number of stored sessions."""
 
     async def save_ticks(self, ticks: Mapping[str, int]) -> None:
-        """Store the ticks of clocks, by session id; unknown sessions are skipped."""
+        """Store the ticks of clocks, by session id; unknown sessions are skipped. Counts as use."""
+
+    async def touch(self, session_ids: Collection[str], at: datetime) -> None:
+        """Store that sessions are in use; unknown ones are skipped."""
+
+    async def unused(self, since: datetime, limit: int, *, named: bool) -> Sequence[str]:
+        """Up to `limit` sessions not used since a time, the longest unused first.
+
+        `named`: also those with a name or a bookmark. None where no session at all was used since then.
+        """
 
     async def delete(self, session_id: str) -> bool:
         """Delete a session, its entries and its snapshot; returns whether it existed.

@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from anyio import to_thread
-from sqlalchemy import Connection, Integer, Table, create_engine, delete, func, select, text
+from sqlalchemy import Connection, Integer, Table, create_engine, delete, func, select, text, update
 from sqlalchemy.exc import SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncConnection
 from sqlalchemy.pool import NullPool
@@ -72,6 +72,7 @@ def _swap(backup: Path, path: Path) -> Path | None:
         with whole_file(path, replace=True) as file, backup.open("rb") as source:
             shutil.copyfileobj(source, file, 1 << 20)
             file.flush()
+            _mark_used(Path(file.name))
             os.fsync(file.fileno())
             if not path.exists():
                 return None
@@ -79,6 +80,14 @@ def _swap(backup: Path, path: Path) -> Path | None:
             return _keep_old(path)
     except OSError as error:
         raise StoreError(f"{path} cannot be written: {error.strerror or error}") from error
+
+
+def _mark_used(path: Path) -> None:
+    """Count all sessions as used now: what is restored must not be deleted for its age."""
+    with closing(sqlite3.connect(path)) as connection, connection:
+        columns = [row[1] for row in connection.execute("PRAGMA table_info(sessions)")]
+        if "used_at" in columns:
+            connection.execute("UPDATE sessions SET used_at = ?", (f"{datetime.now(UTC):%F %T.%f}",))
 
 
 def _keep_old(path: Path) -> Path:
@@ -116,6 +125,7 @@ async def _restore_server(backup: Path, database: Postgres, replace: bool) -> No
                     for rows in _pages(copy, table):
                         await connection.run_sync(insert_rows, table, rows)
                     await _set_sequence(connection, table)
+            await connection.execute(update(SESSIONS).values(used_at=datetime.now(UTC).replace(tzinfo=None)))
     except (SQLAlchemyError, sqlite3.Error, OSError, ValueError) as error:
         raise StoreError(f"{database.name} cannot be restored: {driver_message(error)}") from error
     finally:

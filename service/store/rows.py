@@ -29,10 +29,12 @@ def session_to_row(record: SessionRecord) -> dict[str, Any]:
         "standing": branch.standing,
         "instead": [dict(each) for each in branch.instead],
     }
+    made = record.created_at.astimezone(UTC).replace(tzinfo=None)
     return {
         "id": record.id,
         "name": record.name,
-        "created_at": record.created_at.astimezone(UTC).replace(tzinfo=None),
+        "created_at": made,
+        "used_at": made,
         "config": dict(record.config),
         "paused": record.paused,
         "tick": record.tick,

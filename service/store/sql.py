@@ -14,8 +14,9 @@ from __future__ import annotations
 import asyncio
 import sqlite3
 import threading
-from collections.abc import AsyncIterator, Mapping, Sequence
+from collections.abc import AsyncIterator, Collection, Mapping, Sequence
 from contextlib import asynccontextmanager
+from datetime import UTC, datetime
 from pathlib import Path
 
 from anyio import to_thread
@@ -190,9 +191,33 @@ class SqlStore:
         """See `Store.save_ticks`."""
         if not ticks:
             return
-        change = update(SESSIONS).where(SESSIONS.c.id == bindparam("of")).values(tick=bindparam("at"))
+        used = datetime.now(UTC).replace(tzinfo=None)
+        change = update(SESSIONS).where(SESSIONS.c.id == bindparam("of"))
+        change = change.values(tick=bindparam("at"), used_at=used)
         async with self._transaction() as connection:
             await connection.execute(change, [{"of": of, "at": at} for of, at in ticks.items()])
+
+    async def touch(self, session_ids: Collection[str], at: datetime) -> None:
+        """See `Store.touch`."""
+        if not session_ids:
+            return
+        change = update(SESSIONS).where(SESSIONS.c.id == bindparam("of")).values(used_at=_utc(at))
+        async with self._transaction() as connection:
+            await connection.execute(change, [{"of": each} for each in session_ids])
+
+    async def unused(self, since: datetime, limit: int, *, named: bool) -> Sequence[str]:
+        """See `Store.unused`."""
+        query = select(SESSIONS.c.id).where(~SESSIONS.c.unseen, SESSIONS.c.used_at < _utc(since))
+        if not named:
+            bookmarked = select(MOMENTS.c.number).where(MOMENTS.c.session_id == SESSIONS.c.id).exists()
+            query = query.where(SESSIONS.c.name.is_(None), ~bookmarked)
+        latest = select(func.max(SESSIONS.c.used_at))
+        async with self._transaction() as connection:
+            used = (await connection.execute(latest)).scalar_one()
+            if used is None or used < _utc(since):
+                return []
+            rows = await connection.execute(query.order_by(SESSIONS.c.used_at).limit(limit))
+            return list(rows.scalars())
 
     async def delete(self, session_id: str) -> bool:
         """See `Store.delete`."""
@@ -379,6 +404,11 @@ class SqlStore:
         except ValueError as error:
             # Reading JSON: the file was damaged in a place that its own structure does not show.
             raise StoreError(f"what is kept cannot be read: {error}") from error
+
+
+def _utc(at: datetime) -> datetime:
+    """As times are stored."""
+    return at.astimezone(UTC).replace(tzinfo=None)
 
 
 def _one_phrase(owner: str, language: str, key: str) -> Delete:

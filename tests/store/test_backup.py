@@ -11,7 +11,7 @@ import subprocess
 import sys
 from contextlib import closing
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -172,6 +172,19 @@ async def test_a_store_that_closes_ends_a_backup(tmp_path: Path) -> None:
     await store.close()
     with pytest.raises(StoreError, match="The service stops"):
         await copying
+
+
+async def test_what_is_restored_counts_as_used_now(tmp_path: Path) -> None:
+    store = MemoryStore()
+    await fill(store)
+    await store.backup(tmp_path / "copy.db")
+    await restore_database(tmp_path / "copy.db", f"sqlite:///{tmp_path}/roads.db", replace=False)
+    restored = SqlStore(f"sqlite:///{tmp_path}/roads.db")
+    await restored.open()
+    await restored.create(replace(record("old"), created_at=datetime.now(UTC) - timedelta(days=99)))
+    found = await restored.unused(datetime.now(UTC) - timedelta(days=1), 9, named=True)
+    await restored.close()
+    assert list(found) == ["old"]
 
 
 async def test_a_restore_refuses_what_is_there_and_keeps_what_it_replaces(tmp_path: Path) -> None:
