@@ -32,6 +32,7 @@ from service.sessions.build_fork import build_fork
 from service.sessions.persistence.recording import Recording, replay_recording
 from service.sessions.persistence.replay import ReplayError
 from service.sessions.persistence.restore import restore
+from service.sessions.persistence.seal import SECRET, Seal
 from service.sessions.persistence.snapshot_scheduler import SnapshotScheduler
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.scheduler.eviction import Evictor, IdleTimes, RoomMaker
@@ -63,6 +64,8 @@ class SessionManager:
         self._expiring: set[str] = set()
         self._creating = 0
         self._stored_count = 0
+        self.seal: Seal | None = None
+        """that of the recordings made here, once the store is open"""
         self.idle_times = IdleTimes()
         self.snapshots = SnapshotScheduler(services.store, services.settings)
 
@@ -84,6 +87,7 @@ class SessionManager:
     async def open(self) -> None:
         """Count the stored sessions; only this manager adds to them from now on. Raises `StoreError`."""
         self._stored_count = await self._services.store.count()
+        self.seal = Seal(await self._services.store.secret(SECRET))
 
     @property
     def subscriber_count(self) -> int:

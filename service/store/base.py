@@ -14,6 +14,8 @@ from typing import Any, Protocol
 
 from service.resources import DEFAULT_LANGUAGE
 
+SECRET_BYTES = 32
+
 
 class StoreError(Exception):
     """The store failed; the message is for whoever runs the service."""
@@ -225,6 +227,9 @@ class Store(Protocol):
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
         """All phrases of an owner, by language and key."""
+
+    async def secret(self, name: str) -> bytes:
+        """A secret of this store, the same whenever it is asked for; made when it is first."""
 
     async def backup(self, target: Path) -> None:
         """Copy everything into a new SQLite file (`service.store.backup`), while others use the store."""

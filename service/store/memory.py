@@ -5,6 +5,7 @@ It satisfies the same protocol and the same tests as the SQL store.
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -13,6 +14,7 @@ from pathlib import Path
 from anyio import to_thread
 
 from service.store.base import (
+    SECRET_BYTES,
     BookmarkRecord,
     Branch,
     EntryRecord,
@@ -39,6 +41,7 @@ class MemoryStore:
         self._unseen: set[str] = set()
         self._snapshots: dict[str, SnapshotRecord] = {}
         self._used_at: dict[str, datetime] = {}
+        self._secrets: dict[str, bytes] = {}
 
     async def open(self) -> None:
         """Do nothing."""
@@ -219,6 +222,10 @@ class MemoryStore:
         """See `Store.phrases`."""
         return [each for key, each in sorted(self._phrases.items()) if each.owner == owner]
 
+    async def secret(self, name: str) -> bytes:
+        """See `Store.secret`."""
+        return self._secrets.setdefault(name, secrets.token_bytes(SECRET_BYTES))
+
     async def backup(self, target: Path) -> None:
         """See `Store.backup`."""
         # Imported here: a service in memory has no use for SQLAlchemy otherwise.
@@ -244,5 +251,6 @@ class MemoryStore:
             (tables.SNAPSHOTS, [rows.snapshot_to_row(each) for each in self._snapshots.values()]),
             (tables.PHRASES, [rows.phrase_to_row(each) for each in self._phrases.values()]),
             (tables.IDEMPOTENCY, [rows.response_to_row(each) for each in self._answers.values()]),
+            (tables.SECRETS, [{"name": name, "value": value} for name, value in self._secrets.items()]),
         ]
         await to_thread.run_sync(write_file, target, contents)

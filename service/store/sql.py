@@ -12,6 +12,7 @@ well, the caller gets an error, and what may have been committed is deleted with
 from __future__ import annotations
 
 import asyncio
+import secrets
 import sqlite3
 import threading
 from collections.abc import AsyncIterator, Collection, Mapping, Sequence
@@ -25,6 +26,7 @@ from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine
 
 from service.store.base import (
+    SECRET_BYTES,
     BookmarkRecord,
     Branch,
     EntryRecord,
@@ -48,7 +50,7 @@ from service.store.rows import (
     snapshot_to_row,
 )
 from service.store.schema import migrate
-from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSIONS, SNAPSHOTS
+from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SECRETS, SESSIONS, SNAPSHOTS
 from service.whole_file import remove_partial
 
 _PAGE = 500
@@ -329,6 +331,16 @@ class SqlStore:
             )
             for row in rows
         ]
+
+    async def secret(self, name: str) -> bytes:
+        """See `Store.secret`."""
+        async with self._transaction() as connection:
+            found = select(SECRETS.c.value).where(SECRETS.c.name == name)
+            value = (await connection.execute(found)).scalar_one_or_none()
+            if value is None:
+                value = secrets.token_bytes(SECRET_BYTES)
+                await connection.execute(insert(SECRETS), {"name": name, "value": value})
+        return bytes(value)
 
     async def backup(self, target: Path) -> None:
         """See `Store.backup`."""

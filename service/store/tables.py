@@ -101,6 +101,13 @@ IDEMPOTENCY = Table(
     Column("body", LargeBinary, nullable=False),
 )
 
+SECRETS = Table(
+    "secrets",
+    METADATA,
+    Column("name", String(64), primary_key=True),
+    Column("value", LargeBinary, nullable=False, comment="random, and never told"),
+)
+
 JOBS = Table(
     "jobs",
     METADATA,

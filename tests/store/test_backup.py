@@ -42,6 +42,7 @@ def record(name: str, **more: object) -> SessionRecord:
 
 async def fill(store: Store) -> None:
     """One of everything."""
+    await store.secret("recordings")
     await store.create(record("one"), [ENTRY])
     branch = Branch(parent="one", sequence=1, tick=3, standing="02", instead=[])
     await store.create(record("fork", branch=branch))
@@ -74,6 +75,7 @@ async def contents(store: Store) -> list[object]:
         await store.bookmarks(100),
         await store.phrases("me"),
         await store.get_response("k"),
+        await store.secret("recordings"),
         await store.get("gone"),
     ]
 

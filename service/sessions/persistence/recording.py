@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 from anyio import to_thread
@@ -18,6 +19,7 @@ from service.problems import FieldProblem, Invalid, RecordingMismatch
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.fork import renumber
 from service.sessions.persistence.replay import ReplayError, replay
+from service.sessions.persistence.seal import Seal
 from service.sessions.scheduler.offload import REPLAY_S, with_time_limit
 from service.sessions.services import SessionServices
 from service.sessions.session import Session
@@ -32,14 +34,23 @@ class Recording:
     """What a recording holds beside its configuration."""
 
     entries: Sequence[EntryRecord]
+    """numbered from 1: a new session counts its own changes; in the file they keep their session's numbers"""
     tick: int
     digest: str
+    own: bool = False
+    """whether this service made it, so that it may be longer than others'"""
+
+    def __post_init__(self) -> None:
+        numbers = [entry.sequence for entry in self.entries]
+        # A fork may have parts of one change at several ticks. Whatever is not in order the replay refuses.
+        if all(one <= two for one, two in pairwise(numbers)):
+            object.__setattr__(self, "entries", renumber(self.entries))
 
 
 async def replay_recording(session: Session, recording: Recording, services: SessionServices) -> None:
     """Replay a recording on a new session. Raises `Invalid`, or `RecordingMismatch` for another digest."""
     try:
-        most = services.settings.max_recording_ticks
+        most = None if recording.own else services.settings.max_recording_ticks
         work = partial(replay, session, session.narrator, recording.entries, recording.tick, most=most)
         await to_thread.run_sync(with_time_limit(REPLAY_S, work))
     except ReplayError as error:
@@ -64,12 +75,12 @@ async def replay_recording(session: Session, recording: Recording, services: Ses
         )
 
 
-def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str, Any]:
-    """The recording of a session up to its present tick."""
+def recording_json(
+    session: Session, entries: Sequence[EntryRecord], seal: Seal | None = None
+) -> dict[str, Any]:
+    """The recording of a session up to its present tick; sealed where it is longer than others may be."""
     kept = [entry for entry in entries if entry.sequence <= session.sequence]
-    if session.record.branch is not None:
-        kept = renumber(kept)
-    return {
+    made = {
         "format": FORMAT,
         "version": VERSION,
         "rules": session.timeline.config.rules,
@@ -79,6 +90,9 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
         "tick": session.timeline.tick,
         "digest": session.run.world.digest(),
     } | recorded_language(session.language)
+    if seal is not None and made["tick"] > session.services.settings.max_recording_ticks:
+        made["seal"] = seal.of(made["config"], kept, made["tick"], made["digest"], session.language)
+    return made
 
 
 def recorded_language(language: str) -> dict[str, str]:
