@@ -80,7 +80,7 @@ def recording_json(
 ) -> dict[str, Any]:
     """The recording of a session up to its present tick; sealed where it is longer than others may be."""
     kept = [entry for entry in entries if entry.sequence <= session.sequence]
-    made = {
+    made: dict[str, Any] = {
         "format": FORMAT,
         "version": VERSION,
         "rules": session.timeline.config.rules,
