@@ -10,6 +10,7 @@
     │   └── UnknownDecision
     ├── MethodNotAllowed            405  the route exists, the method does not
     ├── Ambiguous                   409  could mean several things: `choices`
+    ├── BackupUnderWay              409  one backup at a time
     ├── PreconditionFailed          412  the session was changed since: `sequence`
     ├── ContentTooLarge             413  more bytes than are read
     ├── UnsupportedMediaType        415  the content type is not JSON
@@ -33,6 +34,7 @@
     ├── Internal                    500  a defect here; says nothing of its inside
     ├── NotSaved                    503  the store did not take it; nothing was changed
     ├── Stopped                     503  work was ended before it was done; nothing was changed
+    ├── BackupFailed                503  no backup was made
     └── NotRestorable               503  what is kept of the session cannot be replayed
 
 `sessions` raises these without knowing HTTP; `api` turns them into responses, and the stream into
@@ -146,6 +148,15 @@ class Ambiguous(ProblemError):
     """A text could mean several things; `choices` are sentences to choose from."""
 
     status, slug, title = 409, "ambiguous", "This could mean several things"
+
+
+class BackupUnderWay(ProblemError):
+    """A backup is being made or read already."""
+
+    status, slug, title = 409, "backup-under-way", "A backup is under way"
+
+    def __init__(self) -> None:
+        super().__init__("Somebody else is being sent a backup. One is made at a time; try again later.")
 
 
 class PreconditionFailed(ProblemError):
@@ -345,6 +356,17 @@ class Stopped(ProblemError):
         super().__init__("The work was stopped before it was done. Nothing was changed. Ask again.")
 
 
+class BackupFailed(ProblemError):
+    """No backup could be made; nothing else is concerned."""
+
+    status, slug, title = 503, "backup-failed", "No backup was made"
+
+    def __init__(self) -> None:
+        super().__init__(
+            "No backup could be made; the service's log says why. It needs as much free room as the database."
+        )
+
+
 class NotRestorable(ProblemError):
     """A stored session cannot be replayed."""
 
@@ -366,6 +388,7 @@ KINDS: tuple[type[ProblemError], ...] = (
     UnknownDecision,
     MethodNotAllowed,
     Ambiguous,
+    BackupUnderWay,
     PreconditionFailed,
     ContentTooLarge,
     UnsupportedMediaType,
@@ -389,6 +412,7 @@ KINDS: tuple[type[ProblemError], ...] = (
     Internal,
     NotSaved,
     Stopped,
+    BackupFailed,
     NotRestorable,
 )
 """Every problem that can be answered, for the documentation and its tests."""

@@ -34,6 +34,8 @@ COMMANDS: Final = {
         "Replay a recording and compare digests. Exits with 1 when they differ.",
     ),
     "sessions": ("service.cli.sessions", "List sessions, newest first."),
+    "backup": ("service.cli.backup", "Write all that the service keeps to one file, while it runs."),
+    "restore": ("service.cli.restore", "Put a backup in the place of the database."),
     "doctor": (
         "service.cli.doctor",
         "Check that the service can run here. Exits with 1 when something is wrong.",

@@ -16,6 +16,8 @@ from service.contract import answers
 from service.contract.model import Model
 
 PREFIX = "/api/v1"
+BACKUP = f"{PREFIX}/backup"
+"""Read in parts, so it is no `Call`."""
 T = TypeVar("T", bound=Model)
 Seen = TypeVar("Seen", bound=media.Media)
 

@@ -21,6 +21,7 @@ from sim.plan import Decision, traits_of
 from sim.plan.safe_planning import failed_decision, is_foreign, recorded_decision
 from sim.session.edits import Applied, apply
 from sim.session.move_log import MoveLog
+from sim.session.packed_state import PackedState, pack
 from sim.session.persistent_list import PersistentList
 from sim.state import FIRST, EgoStep, SimState, StepResult
 from sim.transition import step
@@ -30,7 +31,7 @@ SNAPSHOT_TICKS = 128
 """Work between two snapshots, in replayed ticks. It doubles whenever `MAX_SNAPSHOTS` is exceeded."""
 
 MAX_SNAPSHOTS = 512
-"""Of some kilobytes each. A fork of a log of 50,000 ticks is to take 10 ms."""
+"""Of less than a kilobyte each, packed. A fork of a log of 50,000 ticks is to take 10 ms."""
 
 ACTION_WORK = 4
 """Work of one logged action, in replayed ticks (equal to ticks of the simplest planner)."""
@@ -42,6 +43,9 @@ ROAD_WORK, ROAD_CELLS = 4, 80
 """Work of generating a road in replayed ticks, and the number of cells that adds one more."""
 
 _DRAWN = frozenset((EventType.EPISODE_STARTED, EventType.ROAD_KEPT))
+
+UNPACKED = 2
+"""The latest snapshots stay as they are: most of what is asked for is near the present."""
 
 RECENT_RUNS = 8
 """States kept as they were, for questions about what has just been done."""
@@ -68,13 +72,27 @@ class Entry:
     action: WorldAction
 
 
-@dataclass(frozen=True, slots=True)
 class Snapshot:
     """A state on the way: at a tick, once the first `entries` of the log were applied."""
 
-    tick: int
-    state: SimState
-    entries: int
+    __slots__ = ("_kept", "entries", "tick")
+
+    def __init__(self, tick: int, state: SimState, entries: int) -> None:
+        self.tick = tick
+        self.entries = entries
+        self._kept: SimState | PackedState = state
+
+    @property
+    def state(self) -> SimState:
+        """The state; of a packed snapshot a new object each time."""
+        kept = self._kept
+        return kept.unpack() if isinstance(kept, PackedState) else kept
+
+    def pack(self) -> None:
+        """Keep the state in fewer bytes, for all timelines that share this snapshot."""
+        kept = self._kept
+        if not isinstance(kept, PackedState):
+            self._kept = pack(kept)
 
 
 class Timeline:
@@ -116,6 +134,8 @@ class Timeline:
         new = cls.__new__(cls)
         new.config, new.state, new.entries = config, state, entries
         new._snapshots, new._gap, new._work, new.worked = tuple(snapshots), gap, work, worked
+        for shot in new._snapshots[:-UNPACKED]:
+            shot.pack()
         new._recent = deque(maxlen=RECENT_RUNS)
         new._before = ()
         new._track = MoveLog(moves, len(state.egos))
@@ -323,6 +343,8 @@ class Timeline:
             return
         self._work = 0
         self._snapshots = (*self._snapshots, Snapshot(self.tick, self.state, entries))
+        if len(self._snapshots) > UNPACKED:
+            self._snapshots[-UNPACKED - 1].pack()
         if len(self._snapshots) > MAX_SNAPSHOTS:
             self._gap *= 2
             self._snapshots = self._snapshots[::2]

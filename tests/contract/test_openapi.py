@@ -58,6 +58,7 @@ ROUTES = {
     "GET /healthz",
     "GET /readyz",
     "GET /metrics",
+    "GET /api/v1/backup",
     "POST /api/v1/tickets",
 }
 

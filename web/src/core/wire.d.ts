@@ -7,6 +7,8 @@ export interface Actions {
   id: string;
   actions: Action[];
   dry_run?: boolean;
+  /** Chosen by the client: done once under this key, and answered the same for 24 hours. */
+  key?: string | null;
 }
 
 /** Put `count` things of a kind on the road. */
@@ -149,7 +151,7 @@ export interface Ask {
   parameter?: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed" | "view" | "preference" | "road" | "layout" | null;
   value?: number | string | null;
   term?: "arrived" | "astar" | "attentive" | "av" | "barrier" | "bfs" | "camera" | "cautious" | "certificate" | "closest_call" | "columns" | "confidence" | "continuous" | "cooperative" | "courtesy" | "crash" | "detection_sensitivity" | "dijkstra" | "digest" | "dwa" | "dynamics" | "ego" | "episode" | "false_positive_rate" | "fastest" | "forecast" | "fusion" | "grid" | "layout" | "lidar" | "occupancy" | "pedestrian" | "percept" | "perfect" | "planner" | "playback_speed" | "pothole" | "pothole_probability" | "preference" | "priority" | "radar" | "regret" | "rl" | "rows" | "rss" | "rules" | "safety_buffer" | "seed" | "sensor" | "sensor_noise" | "sensor_range_m" | "smooth_ride" | "avoid_potholes" | "spawn_probability" | "step_seconds" | "stuck" | "success_rate" | "target_speed_kmh" | "tick" | "time_of_day" | "traffic" | "ttc" | "vehicle" | "weather" | "what_if" | null;
-  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "fault" | "too_late" | "foreseen" | "avoidable" | "here" | "compare" | "character" | "own" | null;
+  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "way" | "wait" | "fault" | "too_late" | "foreseen" | "avoidable" | "here" | "compare" | "character" | "own" | "detour" | null;
   until?: number | null;
   ticks?: number | null;
   seconds?: number | null;
@@ -235,6 +237,8 @@ export interface Command {
   text: string;
   dry_run?: boolean;
   language?: string | null;
+  /** Chosen by the client: done once under this key, and answered the same for 24 hours. */
+  key?: string | null;
 }
 
 /** What was done. */
@@ -903,6 +907,8 @@ export interface Recording {
   language?: string | null;
   /** What the world at its end must be. */
   digest: string;
+  /** Of the service that made it, which takes it although it is longer than others may be. */
+  seal?: string | null;
 }
 
 /** Say again what was undone last (`steps` changes, by default one). */
@@ -939,6 +945,8 @@ export interface ResultMessage {
   type: "result";
   id: string;
   result: CommandResult;
+  /** True where it was given before, under the same key. */
+  replayed?: boolean | null;
 }
 
 /** Start the clock. */
