@@ -13,6 +13,7 @@ from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from fastapi import FastAPI
 from starlette.routing import BaseRoute
 
+from service.evaluations.kinds import EvaluationJobs
 from service.http import errors, openapi
 from service.http.conditional.answers import KeptAnswers
 from service.http.deps import Context
@@ -35,6 +36,7 @@ from service.http.routes import (
     create_session,
     decisions,
     docs,
+    evaluations,
     events,
     forecast,
     forks,
@@ -61,6 +63,7 @@ from service.http.routes import language as language_route
 from service.interpreter.aliases import Aliases
 from service.interpreter.interpreter import Interpreter
 from service.interpreter.languages import Language, Languages
+from service.jobs import JobRunner
 from service.llm import LanguageModel, create_model
 from service.narration import Narrator
 from service.resources import DEFAULT_LANGUAGE
@@ -74,6 +77,7 @@ from service.settings import Settings
 from service.shutdown import STOP_S, within
 from service.store import Store, open_store
 from service.version import VERSION
+from sim.evaluate.executor import Executor
 from sim.plan.sandbox.client import without_waiting
 
 RESOURCES = (
@@ -106,6 +110,7 @@ RESOURCES = (
     forecast,
     regret,
     counterfactual,
+    evaluations,
     metrics,
 )
 """The modules whose `router` the application has."""
@@ -131,6 +136,7 @@ def create_app(
     narrator: NarratorProtocol | None = None,
     clock: Clock | None = None,
     model: LanguageModel | None = None,
+    make_executor: Callable[[], Executor] | None = None,
 ) -> FastAPI:
     """The service. Whatever is not given is what the settings name, or the default.
 
@@ -143,7 +149,8 @@ def create_app(
     clock = clock or WheelClock(late=measured.lateness.observe)
     narrator = narrator or Narrator.load()
     model = model or create_model(settings)
-    manager = SessionManager(SessionServices(store, clock, narrator, settings))
+    jobs = JobRunner(store, [EvaluationJobs()], make_executor)
+    manager = SessionManager(SessionServices(store, clock, narrator, settings, jobs))
     languages = Languages.load() if language is None else Languages({DEFAULT_LANGUAGE: language})
     aliases = Aliases(store, languages)
     interpreter = Interpreter(
@@ -157,7 +164,7 @@ def create_app(
     )
     measured.read_from(manager)
     guard, answers = Guard(settings), KeptAnswers(store)
-    context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers)
+    context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers, jobs)
 
     app = FastAPI(
         separate_input_output_schemas=False,
@@ -200,6 +207,7 @@ def _lifespan(
 
     async def close(sleeper: asyncio.Task[None]) -> None:
         await asyncio.wait([sleeper])
+        await context.jobs.close()
         await manager.close()
         if model is not None:
             await model.aclose()
@@ -211,6 +219,7 @@ def _lifespan(
         await manager.open()
         await aliases.open()
         await context.answers.open()
+        await context.jobs.open()
         context.clock.start()
         sleeper = asyncio.create_task(manager.evictor().run())
         try:

@@ -7,9 +7,11 @@
     ├── CrossSite                   403  a page of another site asks
     ├── NotFound                    404  no such route or resource
     │   ├── UnknownSession
-    │   └── UnknownDecision
+    │   ├── UnknownDecision
+    │   └── UnknownJob
     ├── MethodNotAllowed            405  the route exists, the method does not
     ├── Ambiguous                   409  could mean several things: `choices`
+    ├── NotFinished                 409  an evaluation has no report yet
     ├── PreconditionFailed          412  the session was changed since: `sequence`
     ├── ContentTooLarge             413  more bytes than are read
     ├── UnsupportedMediaType        415  the content type is not JSON
@@ -127,6 +129,15 @@ class UnknownSession(NotFound):
         )
 
 
+class UnknownJob(NotFound):
+    """No evaluation has this id."""
+
+    slug, title = "unknown-evaluation", "No such evaluation"
+
+    def __init__(self) -> None:
+        super().__init__("No evaluation has this id. GET /api/v1/evaluations lists those there are.")
+
+
 class UnknownDecision(NotFound):
     """No decision was taken at this tick."""
 
@@ -143,6 +154,17 @@ class Ambiguous(ProblemError):
     """A text could mean several things; `choices` are sentences to choose from."""
 
     status, slug, title = 409, "ambiguous", "This could mean several things"
+
+
+class NotFinished(ProblemError):
+    """An evaluation has no result: it is not done yet, or never will be."""
+
+    status, slug, title = 409, "not-finished", "Not finished"
+
+    def __init__(self, state: str) -> None:
+        super().__init__(
+            f"This evaluation is {state}: it has no report.", headers={"Retry-After": "2"}, state=state
+        )
 
 
 class PreconditionFailed(ProblemError):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from service.jobs import JobRunner
 from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.scheduler.clock import Clock
 from service.settings import Settings
@@ -18,3 +19,5 @@ class SessionServices:
     clock: Clock
     narrator: NarratorProtocol
     settings: Settings
+    jobs: JobRunner | None = None
+    """what runs evaluations; None: they are refused"""

@@ -8,24 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.batch import Batch
-from sim.batch.lanes import check_kinds
 from sim.evaluate.rows import Columns
 from sim.evaluate.spec import Evaluation, Part
 
 LANES: Final = 5_000
 """Episodes side by side: their state stays in the processor's cache, and a cancel is noticed between them."""
-
-
-def fits(spec: Evaluation) -> bool:
-    """Whether the compiled batch knows all that there is on these roads."""
-    if spec.world is not None or spec.config.layout is not None:
-        return False
-    try:
-        check_kinds([spec.config])
-        Batch([spec.config], after="stop")
-    except ValueError:
-        return False
-    return True
 
 
 def drive(spec: Evaluation, planner: str, part: Part) -> Columns:

@@ -8,14 +8,17 @@ from functools import cached_property
 from typing import Any, Final, NamedTuple
 
 from sim import planner_names
-from sim.config import Config, ConfigError, Problem
+from sim.config import COUNTS, Config, ConfigError, Problem
 from sim.generation import GenerationError, generate
 from sim.oracle.lower_bounds import can_arrive
 from sim.randomness import MAX_SEED
+from sim.rules.behaviour import DEFAULT_BEHAVIOUR
+from sim.rules.dynamics import DEFAULT_DYNAMICS
 from sim.search.reactive import ImpatientError
+from sim.sensor_names import DEFAULT_SENSOR
 from sim.session.saved_config import saved_config
 from sim.state import SimState
-from sim.types import Outcome
+from sim.types import Kind, Outcome
 from sim.validation import validate_world
 from sim.world.notation import read
 from sim.world.world import World
@@ -26,8 +29,9 @@ MAX_PLANNERS: Final = 6
 """Most planners that are compared at once."""
 COMPILED_FROM: Final = 1_000
 """Episodes from which the compiled batch pays: loading it takes a second or two in each process."""
-COMPILED: Final = {"priority": 50_000, "astar": 2_000, "dijkstra": 2_000, "bfs": 5_000}
+COMPILED: Final = {"priority": 50_000, "astar": 1_000, "dijkstra": 1_000, "bfs": 5_000}
 """Episodes of a part, by planner, that the compiled batch runs in well under a second or so."""
+_BATCHED: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN)
 LIVE_PART: Final = 20
 """Episodes of a part where a planner is asked one decision at a time."""
 DETAILED: Final = 200
@@ -128,9 +132,20 @@ class Evaluation:
 
     def compiled(self, planner: str) -> bool:
         """Whether the compiled batch drives this planner on these roads."""
-        from sim.evaluate.compiled import fits
+        return self.episodes >= COMPILED_FROM and planner in COMPILED and self._fits_batch
 
-        return self.episodes >= COMPILED_FROM and planner in COMPILED and fits(self)
+    @cached_property
+    def _fits_batch(self) -> bool:
+        """Whether the compiled batch (`sim.batch`, not loaded here) knows all that is on these roads."""
+        config = self.config
+        return (
+            self.world is None
+            and config.layout is None
+            and config.dynamics == DEFAULT_DYNAMICS
+            and config.behaviour == DEFAULT_BEHAVIOUR
+            and config.sensor == DEFAULT_SENSOR
+            and not any(getattr(config, name) for kind, name in COUNTS.items() if kind not in _BATCHED)
+        )
 
     def parts(self) -> list[Part]:
         """The evaluation cut into pieces of work: the first ones, which are followed closely, are small."""

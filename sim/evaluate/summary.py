@@ -68,8 +68,16 @@ def _figures(spec: Evaluation, columns: Columns, roads: Columns) -> dict[str, An
         "seconds": _spread(columns["ticks"][arrived] * config.step_seconds),
         "metres": _spread(metres[arrived]),
         "moves": {name: count / max(1, sum(moves.values())) for name, count in moves.items()},
+        "ticks": _counts(columns["ticks"][arrived]),
         "close": _closeness(spec, columns, roads),
     }
+
+
+def _counts(values: NDArray[Any]) -> list[list[int]]:
+    """How often each value occurs, in their order."""
+    return [
+        [int(value), int(count)] for value, count in zip(*np.unique(values, return_counts=True), strict=True)
+    ]
 
 
 def _spread(values: NDArray[Any]) -> dict[str, Any]:
