@@ -121,6 +121,7 @@ class NewEvaluation(Sent):
     runs: int | None = Field(None, description="Episodes of each planner, up to 1,000,000. Default: 100.")
     planners: list[str] | None = Field(
         None,
+        min_length=1,
         max_length=6,
         description="Compared on the same roads, each with the first. Default: the road's.",
     )

@@ -27,7 +27,7 @@ class EvaluationJobs:
         """See `JobKind.pieces`."""
         if len(parts) == len(cut := _cut(orjson.dumps(spec))):
             return ()
-        return [Piece(f"{part.first}+{part.count}", part.count, part) for part in cut]
+        return [Piece(part_key(part), part.count, part) for part in cut]
 
     def work(self, spec: Spec) -> Callable[[Piece, Callable[[], bool]], bytes]:
         """See `JobKind.work`."""
@@ -41,6 +41,11 @@ class EvaluationJobs:
 @lru_cache(maxsize=4)
 def _cut(spec: bytes) -> tuple[Part, ...]:
     return tuple(Evaluation.from_json(orjson.loads(spec)).parts())
+
+
+def part_key(part: Part) -> str:
+    """The key of a part's piece."""
+    return f"{part.first}+{part.count}"
 
 
 def part_of(key: str) -> Part:

@@ -26,7 +26,7 @@ from service.problems import NotSaved, QuotaExceeded, UnknownJob
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.store import JobRecord, Store, StoreError
-from sim.evaluate.executor import Executor, LocalProcesses
+from sim.evaluate.executor import CancelledError, Executor, LocalProcesses
 
 _LOG = structlog.get_logger(__name__)
 
@@ -205,7 +205,12 @@ class JobRunner:
         loop = asyncio.get_running_loop()
 
         def keep(piece: Piece, body: bytes) -> None:
-            asyncio.run_coroutine_threadsafe(self._keep(job_id, piece, body), loop).result()
+            work = self._keep(job_id, piece, body)
+            try:
+                asyncio.run_coroutine_threadsafe(work, loop).result()
+            except RuntimeError:  # the loop is closed: the piece is run again with the next start
+                work.close()
+                raise
 
         # In a thread, since it waits for other processes.
         result = await to_thread.run_sync(
@@ -268,8 +273,12 @@ def _drive(
                 parts[piece.key] = body
             if cancel.is_set():
                 return None
+            if any(piece.key not in parts for piece in pieces):
+                raise RuntimeError("the executor has left out pieces of work")
         results = [result for _, result in executor.run(_finish, [(kind.finish(spec), dict(parts))], cancel)]
         return None if cancel.is_set() or not results else results[0]
+    except CancelledError:
+        return None
     finally:
         executor.close()
 

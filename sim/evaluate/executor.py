@@ -30,6 +30,10 @@ Work = Callable[[Piece, Callable[[], bool]], Answer]
 """Takes a piece and what tells whether it is cancelled; a function of a module, so that processes find it."""
 
 
+class CancelledError(Exception):
+    """The work was cancelled while a piece was run."""
+
+
 class WorkersLostError(Exception):
     """Processes ended again and again before they had done anything."""
 
@@ -71,6 +75,8 @@ class LocalProcesses:
         self._context = get_context("spawn")
         self._cancel = self._context.Event()
         self._pool: ProcessPoolExecutor | None = None
+        self._busy = False
+        """whether pieces are under way"""
 
     def run(
         self, work: Work[Piece, Answer], pieces: Sequence[Piece], cancelled: Event
@@ -113,6 +119,7 @@ class LocalProcesses:
                     return
                 running[self._pool.submit(_run, work, piece)] = piece
 
+        self._busy = True
         fill()
         while running and not cancelled.is_set():
             done, _ = wait(running, POLL_S, FIRST_COMPLETED)
@@ -120,15 +127,18 @@ class LocalProcesses:
                 answer = future.result()
                 yield running.pop(future), answer
             fill()
+        self._busy = bool(running)
 
     def close(self) -> None:
         """End the processes; the pieces that they run are given up."""
         self._cancel.set()
-        self._drop()
+        self._drop(wait=not self._busy)
 
-    def _drop(self) -> None:
+    def _drop(self, *, wait: bool = False) -> None:
+        """Give up the processes. Those that do nothing are waited for, which takes no time."""
+        self._busy = False
         if self._pool is not None:
-            self._pool.shutdown(wait=False, cancel_futures=True)
+            self._pool.shutdown(wait=wait, cancel_futures=True)
             self._pool = None
             self._cancel = self._context.Event() if self._cancel.is_set() else self._cancel
 

@@ -8,7 +8,7 @@ from typing import Any, Final, Literal
 
 import numpy as np
 
-from sim.evaluate.part import CancelledError
+from sim.evaluate.executor import CancelledError
 from sim.evaluate.rows import ARRIVED, NO_WAY, ROADS, Rows
 from sim.evaluate.spec import Evaluation
 from sim.state import SimState

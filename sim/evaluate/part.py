@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from sim.evaluate.closeness import Closeness
+from sim.evaluate.executor import CancelledError
 from sim.evaluate.rows import ARRIVED, NO_WAY, ROADS, UNKNOWN, WAY, Columns, Rows
 from sim.evaluate.spec import DETAILED, STATES, Evaluation, Part
 from sim.oracle.lower_bounds import can_arrive, least_ticks
@@ -19,10 +20,6 @@ from sim.types import Outcome
 OUTCOMES: Final = tuple(Outcome)
 _WHOLE: Final = ("ticks", "forward", "sideways", "diagonal", "stay")
 _CLOSE: Final = {"gap_m": np.float32, "ttc_s": np.float32, "exposed": np.uint16, "changes": np.uint16}
-
-
-class CancelledError(Exception):
-    """The evaluation was cancelled while a part was run."""
 
 
 def run_part(spec: Evaluation, part: Part, cancelled: Callable[[], bool] = lambda: False) -> Rows:

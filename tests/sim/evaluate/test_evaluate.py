@@ -15,8 +15,8 @@ import pytest
 
 from sim.config import Config
 from sim.evaluate import Evaluation, EvaluationError, Part
-from sim.evaluate.executor import LocalProcesses
-from sim.evaluate.part import CancelledError, run_part
+from sim.evaluate.executor import CancelledError, LocalProcesses
+from sim.evaluate.part import run_part
 from sim.evaluate.rows import join, pack, unpack
 from sim.evaluate.run import evaluate, pack_part, summarize_parts
 from sim.evaluate.spec import LIVE_PART
