@@ -90,7 +90,7 @@ def _read(text: str, seed: int, language: str) -> Evaluation:
     except FileNotFoundError:
         fail(f"There is no language {language}.")
     if not isinstance(parsed, Understood):
-        fail(plain(getattr(parsed, "message", None) or getattr(parsed, "question", "")))
+        fail(plain(str(getattr(parsed, "message", "") or getattr(parsed, "question", ""))))
     match parsed.actions:
         case (Evaluate(road=None) as action,):
             pass

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
 from functools import cached_property
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 from sim import planner_names
 from sim.config import COUNTS, Config, ConfigError, Problem
@@ -48,7 +48,8 @@ class EvaluationError(ValueError):
         self.problems = problems
 
 
-class Part(NamedTuple):
+@dataclass(frozen=True, order=True, slots=True)
+class Part:
     """A stretch of the episodes of an evaluation."""
 
     first: int

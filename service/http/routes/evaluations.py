@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from typing import Annotated, Any, Literal, cast
 
@@ -177,7 +178,7 @@ async def read_report(
         return _report(await to_thread.run_sync(_write_progress, record), format)
     if format == "json":
         return json_response({"spec": record.spec, "result": record.result})
-    parts = await here.jobs.parts(evaluation_id) if format == "csv" else {}
+    parts: Mapping[str, bytes] = await here.jobs.parts(evaluation_id) if format == "csv" else {}
     base = str(request.base_url).rstrip("/")
     return _report(await to_thread.run_sync(partial(_write, record, format, base, parts)), format)
 
@@ -195,7 +196,7 @@ def _write_progress(record: JobRecord) -> str:
     return write_progress(title, language, record.done, record.total)
 
 
-def _write(record: JobRecord, format: str, base: str, parts: dict[str, bytes]) -> str:
+def _write(record: JobRecord, format: str, base: str, parts: Mapping[str, bytes]) -> str:
     """A report as text. For a thread: drawing and writing take a second."""
     from service.evaluations.report.document import make_document
     from service.evaluations.report.write import write_csv, write_html, write_markdown
@@ -229,7 +230,7 @@ async def _read_evaluation(
         action = Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road)
     if state is None:
         parts = {"seed": 0, **(body.config or {})}
-        asked = bodies.NewSession(scenario=body.scenario, config=parts)
+        asked = bodies.NewSession.model_validate({"scenario": body.scenario, "config": parts})
         config = await described_config(here, asked, language)
     else:
         config = state.config_of()

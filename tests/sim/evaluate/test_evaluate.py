@@ -66,7 +66,7 @@ def test_json_and_back_is_the_same_evaluation() -> None:
 def test_every_episode_is_in_one_part() -> None:
     for episodes in (1, 19, 20, 199, 201, 999, 1_000, 60_321):
         spec = Evaluation(planners=("priority",), episodes=episodes)
-        covered = [range(first, first + count) for first, count in spec.parts()]
+        covered = [range(part.first, part.first + part.count) for part in spec.parts()]
         assert [index for each in covered for index in each] == list(range(episodes))
 
 
