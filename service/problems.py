@@ -7,10 +7,12 @@
     ├── CrossSite                   403  a page of another site asks
     ├── NotFound                    404  no such route or resource
     │   ├── UnknownSession
-    │   └── UnknownDecision
+    │   ├── UnknownDecision
+    │   └── UnknownJob
     ├── MethodNotAllowed            405  the route exists, the method does not
     ├── Ambiguous                   409  could mean several things: `choices`
     ├── BackupUnderWay              409  one backup at a time
+    ├── NotFinished                 409  an evaluation has no report yet
     ├── PreconditionFailed          412  the session was changed since: `sequence`
     ├── ContentTooLarge             413  more bytes than are read
     ├── UnsupportedMediaType        415  the content type is not JSON
@@ -132,6 +134,15 @@ class UnknownSession(NotFound):
         )
 
 
+class UnknownJob(NotFound):
+    """No evaluation has this id."""
+
+    slug, title = "unknown-evaluation", "No such evaluation"
+
+    def __init__(self) -> None:
+        super().__init__("No evaluation has this id. GET /api/v1/evaluations lists those there are.")
+
+
 class UnknownDecision(NotFound):
     """No decision was taken at this tick."""
 
@@ -157,6 +168,17 @@ class BackupUnderWay(ProblemError):
 
     def __init__(self) -> None:
         super().__init__("Somebody else is being sent a backup. One is made at a time; try again later.")
+
+
+class NotFinished(ProblemError):
+    """An evaluation has no result: it is not done yet, or never will be."""
+
+    status, slug, title = 409, "not-finished", "Not finished"
+
+    def __init__(self, state: str) -> None:
+        super().__init__(
+            f"This evaluation is {state}: it has no report.", headers={"Retry-After": "2"}, state=state
+        )
 
 
 class PreconditionFailed(ProblemError):
@@ -386,9 +408,11 @@ KINDS: tuple[type[ProblemError], ...] = (
     NotFound,
     UnknownSession,
     UnknownDecision,
+    UnknownJob,
     MethodNotAllowed,
     Ambiguous,
     BackupUnderWay,
+    NotFinished,
     PreconditionFailed,
     ContentTooLarge,
     UnsupportedMediaType,

@@ -29,6 +29,10 @@ COMMANDS: Final = {
         "service.cli.watch",
         "Print what a session does as it does it, until Ctrl-C or until it is deleted.",
     ),
+    "evaluate": (
+        "service.cli.evaluate",
+        "Run many episodes with one or several planners and report what came of them.",
+    ),
     "replay": (
         "service.cli.replay",
         "Replay a recording and compare digests. Exits with 1 when they differ.",

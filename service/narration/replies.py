@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from service.narration.evaluation import EvaluationWords
 from service.narration.goals import Goals
 from service.narration.placing import how_many_now, place_of
 from service.narration.rearranged import told_rearranged
@@ -17,6 +18,7 @@ from service.sessions.facts import (
     Chatted,
     Dropped,
     Fact,
+    JobAsked,
     PauseSet,
     Resolved,
     Stepped,
@@ -58,6 +60,7 @@ class Replies:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._evaluations = EvaluationWords(sayings)
         self._goals = Goals(sayings, self._scenario, self.done)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
@@ -112,6 +115,8 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
+            case JobAsked():
+                return self._evaluations.started(fact)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():

@@ -65,6 +65,7 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "swap", "first": {"kind": "barrier"}, "second": {"kind": "vehicle"}},
     {"do": "replace", "kind": "barrier", "count": 1, "by": "vehicle"},
     {"do": "copy", "kind": "barrier", "count": 1},
+    {"do": "evaluate", "runs": 5},
     {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
 ]
 BESIDE_SESSIONS = {"teach", "forget"}
@@ -73,7 +74,8 @@ REFUSED: list[dict[str, Any]] = [
     {"do": "set", "parameter": "weather", "value": "rain"},
     {"do": "show", "view": "sensors"},
     {"do": "hide", "view": "sensors"},
-    {"do": "evaluate", "runs": 5},
+    {"do": "evaluate", "planners": ["astar", "dwa"]},
+    {"do": "evaluate", "scenario": {"weather": "rain"}},
     {"do": "find_worst"},
     {"do": "record", "on": True},
     {"do": "add", "kind": "av", "count": 1},

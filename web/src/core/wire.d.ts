@@ -256,6 +256,8 @@ export interface CommandResult {
   sequence: number;
   corrections: Correction[];
   dry_run: boolean;
+  /** Evaluations that it started, which go on in the background. */
+  evaluations?: StartedEvaluation[];
 }
 
 /** What a patch of the configuration did. */
@@ -370,6 +372,55 @@ export interface Evaluate {
   runs?: number | null;
   planners?: ("rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative")[] | null;
   scenario?: ScenarioParts | null;
+  road?: "this" | null;
+}
+
+/** An evaluation as it stands. */
+export interface Evaluation {
+  id: string;
+  state: "queued" | "running" | "done" | "failed" | "cancelled";
+  created_at: string;
+  /** What it runs, in words. */
+  title: string;
+  /** Episodes of each planner. */
+  runs: number;
+  planners: string[];
+  /** Episode i is drawn from this seed + i, for every planner. */
+  seed: number;
+  /** What the roads are drawn from. */
+  config: { [key: string]: unknown };
+  /** Whether all episodes start from one road, that of the session it was asked of. */
+  same_road: boolean;
+  /** Episodes that are done. */
+  done: number;
+  /** The share of the episodes that are done. */
+  progress: number;
+  /** What came of it in plain language, once it is done. */
+  text: string[] | null;
+  /** The figures, once it is done. */
+  result: { [key: string]: unknown } | null;
+  /** Why it failed. */
+  error: string | null;
+  links: { [key: string]: string };
+}
+
+/** Evaluations, newest first. */
+export interface EvaluationPage {
+  items: EvaluationSummary[];
+  after: string | null;
+  more: boolean;
+}
+
+/** An evaluation in a list. */
+export interface EvaluationSummary {
+  id: string;
+  state: "queued" | "running" | "done" | "failed" | "cancelled";
+  created_at: string;
+  /** What it runs, in words. */
+  title: string;
+  /** The share of the episodes that are done. */
+  progress: number;
+  links: { [key: string]: string };
 }
 
 /** Lines of the log, oldest first. */
@@ -636,6 +687,57 @@ export interface Mover {
   heading: "left" | "right";
   /** Whether a pothole holds it. */
   disabled: boolean;
+}
+
+/** Many episodes to run, in words or in figures. */
+export interface NewEvaluation {
+  /** As a sentence, such as `run 500 episodes with A*`. Beside it: session, seed, language. */
+  text?: string | null;
+  /** Episodes of each planner, up to 1,000,000. Default: 100. */
+  runs?: number | null;
+  /** Compared on the same roads, each with the first. Default: the road's. */
+  planners?: string[] | null;
+  /** A sentence that describes the roads. */
+  scenario?: string | null;
+  /** What the roads are drawn from. */
+  config?: {
+    columns?: number;
+    visible_rows?: number;
+    rows?: number;
+    cell_m?: number;
+    step_seconds?: number;
+    spawn_probability?: number;
+    pothole_probability?: number;
+    potholes?: number | null;
+    vehicles?: number | null;
+    barriers?: number;
+    pedestrians?: number;
+    courtesy?: number;
+    attentive?: number;
+    collision?: "swept" | "cell";
+    repetition?: boolean;
+    reset_delay_s?: number;
+    road?: "highway" | "city" | "rural" | null;
+    layout?: "walls" | "narrows" | "dead_ends" | "crossing" | "maze" | null;
+    traffic?: "none" | "light" | "normal" | "heavy" | null;
+    planner?: string;
+    preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
+    safety_buffer?: number;
+    sensor?: "perfect";
+    dynamics?: "grid";
+    behaviour?: "sideways";
+    rules?: number;
+    solvable?: boolean;
+    seed?: number;
+  } | null;
+  /** Roads as in this session; alone or with a text, runs, planners. */
+  session?: string | null;
+  /** The session's own road from this moment on, in place of roads that are drawn. */
+  road?: "this" | null;
+  /** Of the first episode. Default: the session's, else 0. */
+  seed?: number | null;
+  /** Of the text and the report. In which language; `GET /language` names them. Default: the session's. */
+  language?: string | null;
 }
 
 /** How another session goes on from a tick of this one. */
@@ -1158,6 +1260,12 @@ export interface Side {
   state: State;
   ticks: PlayedTick[];
   end: End;
+}
+
+/** An evaluation that a sentence or an action has started. */
+export interface StartedEvaluation {
+  id: string;
+  links: { [key: string]: string };
 }
 
 /** The world at a tick. */
