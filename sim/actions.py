@@ -443,10 +443,12 @@ class Trigger:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cancel:
-    """Switch rules off: one by its number, all, the last, or those that do such an action to such things."""
+    """Switch rules off: one by its number or place, all, the last, or those that do such an action to such things."""
 
     do: Literal["cancel"] = "cancel"
     which: Annotated[int, Ge(1)] | Literal["all", "last"] | None = None
+    place: Annotated[int, Ge(1)] | None = None
+    """which of the list: 1 for the first that stands"""
     doing: str | None = None
     """the `do` of an action that the rules have"""
     kind: PlaceableKind | None = None
@@ -455,8 +457,8 @@ class Cancel:
     __pydantic_config__ = _STRICT
 
     def __post_init__(self) -> None:
-        if (self.which is None) is (self.doing is None):
-            raise ValueError("say exactly one of 'which' and 'doing'")
+        if [self.which, self.place, self.doing].count(None) != 2:
+            raise ValueError("say exactly one of 'which', 'place' and 'doing'")
         if self.kind is not None and self.doing is None:
             raise ValueError("'kind' belongs to 'doing'")
 

@@ -46,6 +46,11 @@ def cancel(state: SimState, action: Cancel) -> Applied:
             left: tuple[StandingTrigger, ...] = ()
         case "last":
             left = standing[:-1]
+        case None if action.place is not None:
+            at = action.place
+            if at > len(standing):
+                raise EditError("no_such_trigger", "place", number=at)
+            left = (*standing[: at - 1], *standing[at:])
         case None:
             left = tuple(rule for rule in standing if not _does(rule.trigger, action))
             if left == standing:
