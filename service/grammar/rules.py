@@ -147,7 +147,8 @@ class _Reading:
             for edge in self._lattice.edges[at]:
                 if edge.concept != SEPARATOR or edge.end >= end:
                     continue
-                if last := self._rule(edge.end, end):
+                # "Stop, then go for two seconds" contradicts itself.
+                if last := [each for each in self._rule(edge.end, end) if not isinstance(each[0], Resume)]:
                     first = self._with_rules(start, at, parts - 1) or self._plainly(start, at)
                     found += [(*one, *other) for one in first for other in last]
         return _distinct(found)
@@ -174,9 +175,14 @@ class _Reading:
                         first = self._joined(stop, rest.end)
                         yield from self._left(_Rest(first, rest.end, {**rest.parts, part: value}))
             for at in range(rest.start + 1, rest.end):
+                if part == TIMES and rest.parts.keys() & {WHEN, ONCE} and not self._follows_mark(at):
+                    continue  # "turn left twice every ten ticks" turns twice each time
                 for stop, value in self._at(part, at):
                     if stop in closing:
                         yield from self._left(_Rest(rest.start, at, {**rest.parts, part: value}))
+
+    def _follows_mark(self, at: int) -> bool:
+        return any(e.end == at and e.concept == SEPARATOR for e in self._lattice.edges[at - 1])
 
     def _left(self, rest: _Rest) -> Iterator[_Rest]:
         yield rest

@@ -42,6 +42,7 @@ FACTS: dict[str, tuple[Any, Any]] = {
     "left": (461, 1),
     "low": (0.25, 3),
     "most": (463, 100),
+    "percent": (523, 50),
     "near": ("columns", "rows"),
     "now": (0.68, 3),
     "place": ("there", "road"),
