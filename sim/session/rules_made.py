@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Final, TypeAlias
 
 from sim.actions import Cancel, Condition, Pause, RuleAction, Trigger, WorldAction
-from sim.session.applied import Applied, Change
+from sim.session.applied import Applied
 from sim.session.conditions import is_so
 from sim.session.errors import EditError
 from sim.session.locate import lane_columns
@@ -92,5 +92,4 @@ def _kind(action: RuleAction) -> str | None:
 
 
 def _with(state: SimState, action: Trigger | Cancel, triggers: Triggers) -> Applied:
-    change = Change("triggers", len(state.triggers.standing), len(triggers.standing))
-    return Applied(action, replace(state, triggers=triggers), (change,))
+    return Applied(action, replace(state, triggers=triggers))

@@ -45,6 +45,7 @@ FACTS: dict[str, tuple[Any, Any]] = {
     "percent": (523, 50),
     "near": ("columns", "rows"),
     "now": (0.68, 3),
+    "number": (541, 2),
     "place": ("there", "road"),
     "problem": (Problem("rows", "too_many", room=467), Problem("rows", "must_be_a_number")),
     "room": (479, 0),
