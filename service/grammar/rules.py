@@ -190,7 +190,12 @@ class _Reading:
 
     def _at(self, part: str, at: int) -> list[tuple[int, Any]]:
         self._work.spend(MATCH_STEPS)
-        return list(self._words.at(part, self._said, at))
+        longest: dict[str, tuple[int, Any]] = {}
+        for stop, value in self._words.at(part, self._said, at):
+            key = repr(value)
+            if key not in longest or longest[key][0] < stop:
+                longest[key] = stop, value
+        return list(longest.values())
 
     def _of_rest(self, rest: _Rest) -> Readings:
         """The rules that a request and its conditions are."""
