@@ -43,7 +43,7 @@ class RuleSentences(ThingSentences):
         if action.place is not None:
             places = self._words.get("cancel_places", ())
             if action.place > len(places):
-                raise Unsayable("a place so far down the list")
+                raise Unsayable("a far place")
             return self._say("cancel_place", place=places[action.place - 1])
         if action.doing is None:
             key = "number" if isinstance(action.which, int) else str(action.which)
