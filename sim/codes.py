@@ -74,6 +74,11 @@ EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
         "goal_after_end": ("none-there", ()),
         "goal_among_egos": ("not-available", ()),
         "goal_same_planner": ("out-of-range", ()),
+        "too_many_triggers": ("too-many", ("most",)),
+        "no_such_trigger": ("none-there", ("number",)),
+        "no_triggers": ("none-there", ()),
+        "no_trigger_does": ("none-there", ()),
+        "crowded": ("does-not-fit", ("percent",)),
     }
 )
 """Codes of a `sim.session.errors.EditError`: the category of each, and its facts.

@@ -8,6 +8,7 @@ from service.narration.evaluation import EvaluationWords
 from service.narration.goals import Goals
 from service.narration.placing import how_many_now, place_of
 from service.narration.rearranged import told_rearranged
+from service.narration.rules import Rules
 from service.narration.sayings import Sayings
 from service.narration.values import speed, value_of
 from service.sessions.bookmarks import Bookmarked, Jumped
@@ -29,6 +30,7 @@ from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
 from sim.actions import (
     Add,
     Adjust,
+    Cancel,
     Copy,
     Drive,
     MoveThings,
@@ -41,6 +43,7 @@ from sim.actions import (
     SetCount,
     SetMode,
     Swap,
+    Trigger,
 )
 from sim.events import EventType
 from sim.plan import traits_of
@@ -62,6 +65,7 @@ class Replies:
         self._sayings = sayings
         self._evaluations = EvaluationWords(sayings)
         self._goals = Goals(sayings, self._scenario, self.done)
+        self._rules = Rules(sayings)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
@@ -143,6 +147,8 @@ class Replies:
                 return self._preferring(applied)
             case Set(parameter=parameter) | Adjust(parameter=parameter):
                 return self._setting(parameter, applied)
+            case Trigger() | Cancel():
+                return self._rules.told(applied)
             case Drive(move=move):
                 key = "drive" if applied.state.mode is Mode.MANUAL else "drive_then_auto"
                 said = self._say(key, move=self._sayings.move(move, "do"))

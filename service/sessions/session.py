@@ -73,6 +73,7 @@ from sim.events import Event as RoadEvent
 from sim.explain.summary import long_to_tell
 from sim.plan import Decision
 from sim.session.timeline import PlannerSilentError, Timeline
+from sim.session.triggers import pauses
 from sim.state import SimState, StepResult
 from sim.types import Mode
 
@@ -138,7 +139,10 @@ class Session:
     def status(self) -> SessionStatus:
         """What the state message says beside the simulation: id, pause, sequence, speed, undo and redo."""
         steps, undone = self.undo_stack.steps, len(self.undo_stack.undone)
-        return SessionStatus(self.id, self.paused, self.sequence, self.playback_speed, steps, undone)
+        rules = self.narrator.rules(self.run) if self.run.triggers else ()
+        return SessionStatus(
+            self.id, self.paused, self.sequence, self.playback_speed, steps, undone, tuple(rules)
+        )
 
     @property
     def period_s(self) -> float:
@@ -247,8 +251,16 @@ class Session:
             self.feed.publish_tick(before, tick, ())
         else:
             self.feed.publish_tick(before, tick, self.feed.log_events(tick.state, tick))
+            if tick.events and pauses(tick.events):
+                self._pause_by_rule(tick)
         if tick.events and tick.state.world.episode_tick == 0:
             self.reachability.start_road(tick.state)
+
+    def _pause_by_rule(self, tick: StepResult) -> None:
+        """Stop the clock since a rule says so; the log has a line of it already."""
+        self.set_paused(True)
+        text = " ".join(self.narrator.event(event, tick.state) for event in tick.events if pauses((event,)))
+        self.feed.publish_change(None, text, (), ())
 
     def _start_manual_override(self, silence: PlannerSilentError) -> None:
         """Switch to manual driving, by a stored change: a replay does not ask that planner again."""

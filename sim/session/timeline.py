@@ -11,7 +11,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sim.actions import WorldAction
 from sim.config import Config
@@ -23,6 +23,7 @@ from sim.session.edits import Applied, apply
 from sim.session.move_log import MoveLog
 from sim.session.packed_state import PackedState, pack
 from sim.session.persistent_list import PersistentList
+from sim.session.triggers import fire
 from sim.state import FIRST, EgoStep, SimState, StepResult
 from sim.transition import step
 from sim.types import Move
@@ -182,6 +183,7 @@ class Timeline:
         if isinstance(decided, Decision):
             decided = {decided.av: decided}
         tick = _answered(step(self.state) if decided is None else step(self.state, decided))
+        tick = _with_rules(self.state, tick)
         self._recent.append(self.state)
         self._went_on(tick, len(self.entries))
         return tick
@@ -221,10 +223,10 @@ class Timeline:
             if self.tick == present:
                 return
             if self.tick < since:
-                self.state = self._track.after(self.state)
+                self.state = _after_rules(self.state, self._track.after(self.state))
                 self._worked(1, 1, position)
             else:
-                self._went_on(_answered(step(self.state)), position)
+                self._went_on(_with_rules(self.state, _answered(step(self.state))), position)
 
     def rewind(self, tick: int) -> None:
         """Make a past tick the present; what was said or happened after it is gone. Raises `IndexError`."""
@@ -275,7 +277,7 @@ class Timeline:
             state, position, _ = self._apply_due(state, position)
             if state.world.tick >= first:
                 yield state
-            state = track.after(state)
+            state = _after_rules(state, track.after(state))
 
     def decision(self, tick: int, ego: str | None = None) -> Decision | None:
         """The decision taken at a tick (None while a result stood), derived anew. Raises `IndexError`."""
@@ -302,7 +304,7 @@ class Timeline:
 
     def led_to(self, state: SimState) -> StepResult:
         """The tick that a state of this timeline led to."""
-        return step(state, self._noted(state))
+        return _with_rules(state, step(state, self._noted(state)))
 
     def _noted(self, state: SimState) -> dict[str, Decision]:
         """What planners of other packages decided in a past state, by ego id, where that is noted."""
@@ -333,7 +335,8 @@ class Timeline:
             self._track.note(tick.decision)
         else:
             self._track.note(*[steps[id].decision if id in steps else None for id in egos])
-        self._worked(_tick_work(tick.state), 1 + _road_work(tick.state, tick.events), entries)
+        fired = ACTION_WORK * sum(event.type is EventType.TRIGGERED for event in tick.events)
+        self._worked(_tick_work(tick.state), 1 + fired + _road_work(tick.state, tick.events), entries)
 
     def _worked(self, work: int, again: int, entries: int) -> None:
         """Adds up the work done and `again`, its cost in a replay; takes a snapshot where one is due."""
@@ -393,6 +396,19 @@ def _answered(tick: StepResult) -> StepResult:
         if each.decision.timed_out:
             raise PlannerSilentError(each.decision.planner, each.decision.fault or "")
     return tick
+
+
+def _with_rules(before: SimState, tick: StepResult) -> StepResult:
+    """A tick with the rules that were due at its end done."""
+    if not tick.state.triggers:
+        return tick
+    state, events = fire(before, tick.state)
+    return replace(tick, state=state, events=(*tick.events, *events))
+
+
+def _after_rules(before: SimState, after: SimState) -> SimState:
+    """The state after a tick with the rules that were due at its end done."""
+    return fire(before, after)[0] if after.triggers else after
 
 
 def _tick_work(state: SimState) -> int:

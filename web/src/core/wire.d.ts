@@ -141,7 +141,7 @@ export interface Answer {
 /** A question; which keys belong to which `about` is the contract's table. */
 export interface Ask {
   do: "ask";
-  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending" | "detail" | "other" | "pattern" | "outlook" | "blame" | "planners" | "quiz";
+  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending" | "detail" | "other" | "pattern" | "outlook" | "blame" | "planners" | "quiz" | "rules";
   move?: Move | null;
   instead?: Move | null;
   tick?: number | null;
@@ -189,6 +189,15 @@ export interface BriefDecision {
   /** How much there is to say: 0 nothing was in the way, 1 a detour, 2 a wait or worse. */
   weight: 0 | 1 | 2;
   blocked: BlockedMove[];
+}
+
+/** Switch rules off: one by its number or place, all, the last, or those that do such an action to such things. */
+export interface Cancel {
+  do: "cancel";
+  which?: number | "all" | "last" | null;
+  place?: number | null;
+  doing?: string | null;
+  kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
 }
 
 /** One value that differs. */
@@ -258,6 +267,22 @@ export interface CommandResult {
   dry_run: boolean;
   /** Evaluations that it started, which go on in the background. */
   evaluations?: StartedEvaluation[];
+}
+
+/** What a rule waits for: one fact, with its figures. */
+export interface Condition {
+  fact: "crash" | "arrival" | "stuck" | "episode" | "every" | "after" | "tick" | "row" | "lane" | "near" | "count";
+  ticks?: number | null;
+  seconds?: number | null;
+  tick?: number | null;
+  row?: number | null;
+  lane?: "left" | "middle" | "right" | number | null;
+  kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
+  closer_than_m?: number | null;
+  within_m?: number | null;
+  farther_than_m?: number | null;
+  at_least?: number | null;
+  at_most?: number | null;
 }
 
 /** What a patch of the configuration did. */
@@ -1087,6 +1112,20 @@ export interface RoadChanges {
   more: boolean;
 }
 
+/** A rule that stands: "every 10 ticks add a car". */
+export interface Rule {
+  /** By which it is cancelled; never used again in the session. */
+  number: number;
+  /** The rule in the language of the session. */
+  text: string;
+  /** Ticks since the session began. */
+  since: number;
+  /** How often it has been done. */
+  fired: number;
+  /** The action that made it. */
+  action: { [key: string]: unknown };
+}
+
 /** Something said to a session. */
 export interface Said {
   /** At most 500 characters, unless the service is set otherwise. */
@@ -1301,6 +1340,8 @@ export interface State {
   undo: number;
   /** How many undone changes can be made again. */
   redo: number;
+  /** The rules that stand, in the order of their numbers. */
+  rules?: Rule[];
 }
 
 /** A full state for a reader that was too slow. */
@@ -1450,6 +1491,15 @@ export interface TimelinePage {
   more: boolean;
 }
 
+/** A rule: whenever the condition comes to hold, these actions are done at the end of that tick. The condition of a storyboard event in ASAM OpenSCENARIO, on its rising edge. */
+export interface Trigger {
+  do: "trigger";
+  when: Condition;
+  then: (Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Pause)[];
+  until?: Condition | null;
+  times?: number | null;
+}
+
 /** Actions of the language contract, no language involved; done together or not at all. */
 export interface TypedActions {
   actions: Action[];
@@ -1515,4 +1565,4 @@ export interface Which {
 }
 
 /** One action of the language contract. */
-export type Action = Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Goal | Style | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Chat | Evaluate | FindWorst | Advise | Save | Load | Record | Teach | Forget | Drop;
+export type Action = Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Trigger | Cancel | Goal | Style | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Chat | Evaluate | FindWorst | Advise | Save | Load | Record | Teach | Forget | Drop;

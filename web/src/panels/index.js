@@ -25,6 +25,7 @@ import { createRoad } from "../road/road.js";
 import { createSchematic } from "./schematic.js";
 import { createSessionMenu } from "../timeline/sessionMenu.js";
 import { createQuizLoader } from "../talk/quizLoader.js";
+import { createRules } from "./rules.js";
 import { createReader } from "../talk/speech.js";
 import { createStatus } from "./status.js";
 import { createTalk } from "../talk/conversation.js";
@@ -62,6 +63,7 @@ export function createPanels(page) {
     createCaption(byId("caption")),
     createControls(byId("controls"), page),
     createLog(byId("log")),
+    createRules(byId("rules"), page),
     createTalk(byId("talk"), page),
     createCommand(byId("command"), page),
     createConnectionBadge(byId("connection"), page),

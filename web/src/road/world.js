@@ -3,7 +3,7 @@
 
 import { hasText, listText, t } from "../core/texts.js";
 
-/** @import { Kind } from "../core/wire.js" */
+/** @import { Kind, Rule } from "../core/wire.js" */
 /** @import { WireState, TickMessage, Cell, Status, Metrics, Move } from "../core/protocol.js" */
 
 /**
@@ -32,6 +32,7 @@ import { hasText, listText, t } from "../core/texts.js";
  * @property {string} planner
  * @property {Map<string, Thing>} things
  * @property {Metrics} metrics
+ * @property {readonly Rule[]} rules  those that stand
  */
 
 const CELL_M = 5;
@@ -58,6 +59,7 @@ export function worldOf(state) {
     planner: state.planner,
     things,
     metrics: state.metrics,
+    rules: state.rules ?? [],
   };
 }
 
