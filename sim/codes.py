@@ -27,9 +27,6 @@ PROBLEMS: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
         "too_many": ("room",),
         "no_drivable_road": ("draws",),
         "is_given_to_reset": (),
-        "weather_not_available": ("value",),
-        "time_of_day_not_available": ("value",),
-        "sensor_not_available": ("value",),
         "planner_not_available": ("value",),
         "second_vehicle_not_available": (),
     }

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import dataclass, field, replace
+from typing import Final, NamedTuple
 
 from sim.fast_replace import field_setter
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR
@@ -13,6 +13,10 @@ from sim.types import Kind, Move
 from sim.world import Thing
 from sim.world.boards import Boards
 from sim.world.grid import Board, Road, board_of
+
+
+CERTAIN: Final[Mapping[str, float]] = {}
+"""The likelihoods of sensors that are always sure."""
 
 
 class OtherEgo(NamedTuple):
@@ -56,6 +60,8 @@ class Percept:
     """how the others move (`sim.rules.behaviour`)"""
     egos: tuple[OtherEgo, ...] = ()
     """the other egos, in the order of their ids"""
+    likelihoods: Mapping[str, float] = field(default_factory=lambda: CERTAIN)
+    """how likely each thing is to be there, by id, 0 to 1; what is left out is certain"""
 
     @property
     def potholes(self) -> Board:
