@@ -175,7 +175,7 @@ class Config(Derived):
     sensor: str = sensor_names.DEFAULT_SENSOR
     """what the ego sees with (`sim.perceive`)"""
     weather: Weather = "clear"
-    """what sensors see through, and how slippery the road is (`sim.perceive.parameters`, `sim.hazard_advice`)"""
+    """what sensors see through (`sim.perceive.parameters`), and the friction of `sim.hazard_advice`"""
     time_of_day: TimeOfDay = "day"
     """how much light a camera has"""
     detection_sensitivity: float = 0.5

@@ -19,7 +19,7 @@ import numpy as np
 from sim.actions import TimeOfDay, Weather
 from sim.config import Config
 from sim.perceive import NO_BELIEF
-from sim.perceive.belief import GridBelief, probabilities, unpacked
+from sim.perceive.belief import GridBelief, probabilities
 from sim.perceive.grid_sensor import gather
 from sim.perceive.parameters import SUITES
 from sim.perceive.sensor_model import sensor_model
@@ -105,7 +105,9 @@ def main() -> None:
                     for number, (cells, believed, true) in enumerate(found):
                         if cells:
                             share = f"{believed / cells:.3f} believed, {true / cells:.3f} true"
-                            print(f"  {number / BINS:.1f} to {(number + 1) / BINS:.1f}: {int(cells):8}  {share}")
+                            print(
+                                f"  {number / BINS:.1f} to {(number + 1) / BINS:.1f}: {int(cells):8}  {share}"
+                            )
 
 
 if __name__ == "__main__":

@@ -34,9 +34,7 @@ _UNLIKELY = 2 * LIMIT // 8
 """How much less likely than by the prior a mover is where the rule leads none to (log odds)."""
 
 
-def predict_layers(
-    belief: GridBelief, world: World, config: Config
-) -> tuple[Layers, Mapping[int, str]]:
+def predict_layers(belief: GridBelief, world: World, config: Config) -> tuple[Layers, Mapping[int, str]]:
     """The belief one tick on, before any look; and the names of the movers that are followed, by cell."""
     road = world.road
     layers = unpacked(belief.layers, road)
@@ -57,7 +55,9 @@ def predict_layers(
         moving[place] = _mixing(int(before[FIXED + place, 1, 0]))[moving[place] + LIMIT]
     for cell in cells_of(belief.boards.fixed):
         row, column = divmod(cell, road.columns)
-        np.minimum(moving[:, row, column], before[FIXED:, row, column] - _UNLIKELY, out=moving[:, row, column])
+        np.minimum(
+            moving[:, row, column], before[FIXED:, row, column] - _UNLIKELY, out=moving[:, row, column]
+        )
     after = shift_table(table, motion)
     for (layer, _, value), cell in zip(followed, after, strict=True):
         row, column = divmod(cell, road.columns)

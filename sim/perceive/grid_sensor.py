@@ -54,9 +54,7 @@ class Gathered:
     looks: list[Look]
 
 
-def gather(
-    world: World, config: Config, ego: int, belief: Belief, suite: Iterable[SensorSpec]
-) -> Gathered:
+def gather(world: World, config: Config, ego: int, belief: Belief, suite: Iterable[SensorSpec]) -> Gathered:
     """The belief of a tick: the one before, moved on, and the looks of this tick."""
     road = world.road
     followed: Mapping[int, str] = {}

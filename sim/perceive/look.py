@@ -63,9 +63,7 @@ def look(world: World, config: Config, ego: int, model: SensorModel) -> Look:
     view, above = model.view(column), (row - model.reach) * columns
     view = view << above if above >= 0 else view >> -above
     visible = view & ~hidden(road, here, model.reach, occluders(world, ego))
-    draws = Stream.of(
-        config.seed, "sensor", world.episode, world.episode_tick, ego, model.spec.number
-    )
+    draws = Stream.of(config.seed, "sensor", world.episode, world.episode_tick, ego, model.spec.number)
     reports = []
     for table in (world.hazards, world.movers):
         for cell, name in table.items():
@@ -115,9 +113,7 @@ def _report(
     return Report(kind, there[0] * columns + there[1], heading, name)
 
 
-def _false_alarms(
-    world: World, model: SensorModel, draws: Stream, visible: Board, row: int
-) -> list[Report]:
+def _false_alarms(world: World, model: SensorModel, draws: Stream, visible: Board, row: int) -> list[Report]:
     """At most one of each kind in a look, in a cell that is drawn from all that it might see."""
     columns, stream = model.columns, draws.narrow(_ALARMS)
     cells = (model.reach + 1) * columns
@@ -133,5 +129,3 @@ def _false_alarms(
         heading = ("right" if stream.word(place + 2) & 1 else "left") if kind.moves else None
         found.append(Report(kind, cell, heading, None))
     return found
-
-

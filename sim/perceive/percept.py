@@ -14,7 +14,6 @@ from sim.world import Thing
 from sim.world.boards import Boards
 from sim.world.grid import Board, Road, board_of
 
-
 CERTAIN: Final[Mapping[str, float]] = {}
 """The likelihoods of sensors that are always sure."""
 

@@ -78,9 +78,7 @@ def sensor_model(
     """The tables of a device."""
     factor = spec.weather[weather].reach * spec.light[light].reach
     reach = max(1, min(MAX_REACH, ceil(spec.range_m * factor / cell_m)))
-    places = [
-        [(rows, across) for across in range(1 - columns, columns)] for rows in range(reach + 1)
-    ]
+    places = [[(rows, across) for across in range(1 - columns, columns)] for rows in range(reach + 1)]
     kinds = {
         kind: _kind_model(spec, kind, weather, light, cell_m, places, spec.range_m * factor)
         for kind in spec.targets
