@@ -1,4 +1,4 @@
-"""The sensors that err: devices whose looks are gathered in a belief, and what of it is shown to the planner."""
+"""Sensors that err: the looks of devices gathered in a belief, and what of it is shown to the planner."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ def look(world: World, config: Config, ego: int, model: SensorModel) -> Look:
                 report = _report(world, model, draws, cell, name, row, column)
                 if report is not None:
                     reports.append(report)
-    reports += _false_alarms(world, model, draws, visible, row)
+    reports += _false_alarms(model, draws, visible, row)
     return Look(model, visible, tuple(reports))
 
 
@@ -113,7 +113,7 @@ def _report(
     return Report(kind, there[0] * columns + there[1], heading, name)
 
 
-def _false_alarms(world: World, model: SensorModel, draws: Stream, visible: Board, row: int) -> list[Report]:
+def _false_alarms(model: SensorModel, draws: Stream, visible: Board, row: int) -> list[Report]:
     """At most one of each kind in a look, in a cell that is drawn from all that it might see."""
     columns, stream = model.columns, draws.narrow(_ALARMS)
     cells = (model.reach + 1) * columns

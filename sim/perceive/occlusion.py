@@ -63,7 +63,7 @@ def shadow(columns: int, column: int, reach: int, kind: Kind, across: int, ahead
 
 
 def hidden(road: Road, ego: int, reach: int, occluders: Iterable[Occluder]) -> Board:
-    """Every cell, in the vehicle's row and up to `reach` rows ahead, that a body hides from the cell `ego`."""
+    """Every cell that a body hides from the cell `ego`: in its row, and up to `reach` rows ahead."""
     columns = road.columns
     row, column = divmod(ego, columns)
     first = max(0, row - reach) * columns

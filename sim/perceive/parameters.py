@@ -14,13 +14,14 @@ Sources:
   range); Velodyne HDL-64E and VLP-16 data sheets (360°, 100 to 120 m, 2 to 3 cm); Caesar et al., "nuScenes",
   CVPR 2020 (camera, lidar and radar of a test vehicle).
 - *camera*: Geiger, Lenz & Urtasun, "Are we ready for autonomous driving? The KITTI vision benchmark suite",
-  CVPR 2012 (recall falls with distance and occlusion); Fu et al., "Deep ordinal regression network", CVPR 2018
-  (relative depth errors of single images of 3 to 7 %).
+  CVPR 2012 (recall falls with distance and occlusion); Fu et al., "Deep ordinal regression network", CVPR
+  2018 (relative depth errors of single images of 3 to 7 %).
 - *night*: AAA, "Automatic emergency braking with pedestrian detection", 2019 (collisions avoided by day, none
   at night) and the repetition of 2025 (60 % at night).
 - *rain*: AAA, "Evaluation of ADAS in simulated rain", 2021; Zang et al., "The impact of adverse weather
   conditions on autonomous vehicles", IEEE Vehicular Technology Magazine 14(2), 2019 (radar: up to 45 % less
-  range at 150 mm/h); Goodin et al., "Predicting the influence of rain on LIDAR in ADAS", Electronics 8(1), 2019.
+  range at 150 mm/h); Goodin et al., "Predicting the influence of rain on LIDAR in ADAS", Electronics 8(1),
+  2019.
 - *fog*: Bijelic, Gruber & Ritter, "A benchmark for lidar sensors in fog: is detection breaking down?", IEEE
   IV 2018 (lidars of 905 nm see about 25 m in dense fog); Koschmieder's law: contrast falls to 2 % at the
   meteorological visibility, here that of thick fog, 50 to 100 m.

@@ -54,5 +54,6 @@ def perceive(
     return replace(seen[0], egos=other_egos(world, ego, announced, parked)), seen[1]
 
 
-for sensor in (PerfectSensor(), *GRID_SENSORS):
+_BUILT_IN: tuple[Sensor, ...] = (PerfectSensor(), *GRID_SENSORS)
+for sensor in _BUILT_IN:
     register_sensor(sensor)

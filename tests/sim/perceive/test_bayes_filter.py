@@ -71,7 +71,7 @@ def test_a_hidden_cell_keeps_its_belief() -> None:
 
 @pytest.mark.parametrize("sensor", ["camera", "lidar", "radar", "fusion"])
 def test_a_vehicle_that_was_seen_is_expected_where_it_drives(sensor: str) -> None:
-    """Once it is out of view nothing is reported of it, and it is followed by the rule, turning at the edge."""
+    """Nothing is reported of it any more, and it is followed by the rule, turning at the edge."""
     start = road("......", "......", "...>..", "..A...", "......", "......")
     state = run_on(start, sensor=sensor)
     belief: object = None
