@@ -3,10 +3,10 @@
     python -m tools.sensor_calibration --cells 1000000
 
 Every ride is a generated road with a seed of its own, driven by `rules` with the sensor. In every tick, all
-cells from the vehicle's row to as far as the sensor reaches are counted: believed (the chance that any hypothesis
-of the cell is true) against true (a hazard or a mover is there). The expected calibration error is the mean
-gap between the two over ten bins of belief, weighed by cells; that of cells in doubt leaves the bin below
-0.1 out, which holds most cells and is easy.
+cells from the vehicle's row to as far as the sensor reaches are counted: believed (the chance that any
+hypothesis of the cell is true) against true (a hazard or a mover is there). The expected calibration error
+is the mean gap between the two over ten bins of belief, weighed by cells; that of cells in doubt leaves the
+bin below 0.1 out, which holds most cells and is easy.
 """
 
 from __future__ import annotations

@@ -5,9 +5,9 @@ What is only possible moves on in its heading and turns at the edge. Every hypot
 with the prior by `FORGETTING`, the chance that the rule was wrong about it.
 
 *Update*: a cell that was seen without a report becomes less likely by the chance of a miss. A report is
-shared out among all that may have caused it: the things that may stand in its cell, those in cells beside that may
-be displaced into it, and a false alarm, each by its probability (probabilistic data association, Bar-Shalom
-& Tse, Automatica 11, 1975).
+shared out among all that may have caused it: the things that may stand in its cell, those in cells beside
+that may be displaced into it, and a false alarm, each by its probability (probabilistic data association,
+Bar-Shalom & Tse, Automatica 11, 1975).
 """
 
 from __future__ import annotations
