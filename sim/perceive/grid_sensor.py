@@ -76,7 +76,9 @@ def show(
 ) -> tuple[Percept, GridBelief]:
     """The percept of what is believed to be there, and the belief for the next tick."""
     threshold = 1.0 - config.detection_sensitivity
-    hazards, movers = _believed(gathered.layers, threshold)
+    # What is behind is never looked at again, and never met: nobody leaves its row.
+    ahead = gathered.layers[:, : world.avs[ego] // world.road.columns + 1]
+    hazards, movers = _believed(ahead, threshold)
     earlier = belief if isinstance(belief, GridBelief) else None
     names = _Names(world, gathered.looks, earlier.phantoms if earlier else 0)
     remembered = dict(earlier.hazards) if earlier else {}

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.actions import TimeOfDay, Weather
+from sim.perceive.detection import detection_probability
 from sim.perceive.log_odds import UNITS
 from sim.perceive.parameters import MAX_REACH, SensorSpec
 from sim.types import Kind
@@ -76,7 +77,7 @@ def sensor_model(
     spec: SensorSpec, weather: Weather, light: TimeOfDay, cell_m: float, columns: int
 ) -> SensorModel:
     """The tables of a device."""
-    factor = spec.weather[weather].reach * spec.light[light].reach
+    factor = min(spec.weather[weather].reach, spec.light[light].reach)
     reach = max(1, min(MAX_REACH, ceil(spec.range_m * factor / cell_m)))
     places = [[(rows, across) for across in range(1 - columns, columns)] for rows in range(reach + 1)]
     kinds = {
@@ -85,20 +86,6 @@ def sensor_model(
     }
     shifts = [[_shifts(spec, rows, across, cell_m) for rows, across in row] for row in places]
     return SensorModel(spec, columns, reach, kinds, shifts)
-
-
-def detection_probability(
-    spec: SensorSpec, kind: Kind, weather: Weather, light: TimeOfDay, distance_m: float
-) -> float:
-    """The probability that a thing in plain view, at this distance (m), is detected in one look."""
-    target, sky, sun = spec.targets[kind], spec.weather[weather], spec.light[light]
-    reach = sky.reach * sun.reach
-    if distance_m > spec.range_m * reach:
-        return 0.0
-    peak = target.peak * sky.peak * sun.peak
-    if kind is Kind.POTHOLE:
-        peak *= sky.pothole * sun.pothole
-    return peak / (1.0 + (distance_m / (target.half_m * reach)) ** 4)
 
 
 def _kind_model(

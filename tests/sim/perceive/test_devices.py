@@ -12,10 +12,11 @@ from sim.actions import Set, TimeOfDay, Weather
 from sim.config import Config
 from sim.decide import sense
 from sim.perceive import NO_BELIEF, perceive
+from sim.perceive.detection import detection_probability
 from sim.perceive.grid_sensor import looks
 from sim.perceive.look import Look
 from sim.perceive.parameters import SUITES
-from sim.perceive.sensor_model import detection_probability, sensor_model
+from sim.perceive.sensor_model import sensor_model
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.statistics import wilson
