@@ -21,10 +21,9 @@ def speed(sayings: Sayings, pace: PlaybackSpeed) -> str:
 def conditions_of(sayings: Sayings, config: Config) -> str:
     """Sensor, weather and time of day, where they are not those of every road; empty where all are."""
     plain = {"sensor": DEFAULT_SENSOR, "weather": "clear", "time_of_day": "day"}
-    values = [
-        (name, getattr(config, name)) for name, value in plain.items() if getattr(config, name) != value
-    ]
-    return sayings.joined([value_of(sayings, name, value) for name, value in values])
+    values = {name: getattr(config, name) for name in plain}
+    told = [value_of(sayings, name, value) for name, value in values.items() if value != plain[name]]
+    return sayings.joined(told)
 
 
 def value_of(sayings: Sayings, parameter: str, value: object) -> str:
