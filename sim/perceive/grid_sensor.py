@@ -10,11 +10,11 @@ import numpy as np
 
 from sim.config import Config
 from sim.perceive.bayes_filter import predict_layers, update_layers
-from sim.perceive.belief import LAYER, LAYERS, RIGHT, GridBelief, Layers, packed, prior, probabilities
+from sim.perceive.belief import FIXED, LAYER, LAYERS, RIGHT, GridBelief, Layers, packed, prior, probabilities
 from sim.perceive.log_odds import LIMIT
 from sim.perceive.look import Look, look
 from sim.perceive.parameters import SensorSpec
-from sim.perceive.percept import Percept
+from sim.perceive.percept import DOUBTS, Percept
 from sim.perceive.perfect import perceive_truth
 from sim.perceive.sensor import NO_BELIEF, Belief
 from sim.perceive.sensor_model import sensor_model
@@ -112,6 +112,7 @@ def show(
         hazards=fixed_names,
         dynamics=truth.dynamics,
         behaviour=truth.behaviour,
+        doubtful=_doubtful(ahead, boards.fixed),
         likelihoods={
             table[cell]: round(each.likelihood, 3)
             for shown, table in ((hazards, fixed_names), (movers, mover_names))
@@ -155,6 +156,13 @@ def _believed(layers: Layers, threshold: float) -> tuple[dict[int, _Shown], dict
             if held and (cell not in movers or share > movers[cell].likelihood):
                 movers[cell] = _Shown(kind, bool(right[cell] >= left[cell]), share)
     return dict(sorted(hazards.items())), dict(sorted(movers.items()))
+
+
+def _doubtful(layers: Layers, shown: Board) -> tuple[Board, ...]:
+    """The cells that hold something fixed with each of the likelihoods `DOUBTS`, without those shown."""
+    likely = probabilities(layers[:FIXED]).max(axis=0).ravel()
+    boards = (int.from_bytes(np.packbits(likely >= level, bitorder="little"), "little") for level in DOUBTS)
+    return tuple(board & ~shown for board in boards)
 
 
 class _Names:

@@ -18,6 +18,10 @@ CERTAIN: Final[Mapping[str, float]] = {}
 """The likelihoods of sensors that are always sure."""
 
 
+DOUBTS: Final = (0.05, 0.1, 0.2, 0.35)
+"""Levels of doubt: cells that hold something fixed with at least this likelihood, and less than is heeded."""
+
+
 class OtherEgo(NamedTuple):
     """Another ego, as it tells of itself: announcements need no sensor."""
 
@@ -61,6 +65,8 @@ class Percept:
     """the other egos, in the order of their ids"""
     likelihoods: Mapping[str, float] = field(default_factory=lambda: CERTAIN)
     """how likely each thing is to be there, by id, 0 to 1; what is left out is certain"""
+    doubtful: tuple[Board, ...] = ()
+    """cells that may hold something fixed that is not among the hazards, one board for each of `DOUBTS`"""
 
     @property
     def potholes(self) -> Board:
