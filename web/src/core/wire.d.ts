@@ -149,7 +149,7 @@ export interface Ask {
   parameter?: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed" | "view" | "preference" | "road" | "layout" | null;
   value?: number | string | null;
   term?: "arrived" | "astar" | "attentive" | "av" | "barrier" | "bfs" | "camera" | "cautious" | "certificate" | "closest_call" | "columns" | "confidence" | "continuous" | "cooperative" | "courtesy" | "crash" | "detection_sensitivity" | "dijkstra" | "digest" | "dwa" | "dynamics" | "ego" | "episode" | "false_positive_rate" | "fastest" | "forecast" | "fusion" | "grid" | "layout" | "lidar" | "occupancy" | "pedestrian" | "percept" | "perfect" | "planner" | "playback_speed" | "pothole" | "pothole_probability" | "preference" | "priority" | "radar" | "regret" | "rl" | "rows" | "rss" | "rules" | "safety_buffer" | "seed" | "sensor" | "sensor_noise" | "sensor_range_m" | "smooth_ride" | "avoid_potholes" | "spawn_probability" | "step_seconds" | "stuck" | "success_rate" | "target_speed_kmh" | "tick" | "time_of_day" | "traffic" | "ttc" | "vehicle" | "weather" | "what_if" | null;
-  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "fault" | "too_late" | "foreseen" | "avoidable" | "here" | "compare" | "character" | "own" | null;
+  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "way" | "wait" | "fault" | "too_late" | "foreseen" | "avoidable" | "here" | "compare" | "character" | "own" | "detour" | null;
   until?: number | null;
   ticks?: number | null;
   seconds?: number | null;
@@ -673,7 +673,10 @@ export interface NewSession {
     planner?: string;
     preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
     safety_buffer?: number;
-    sensor?: "perfect";
+    sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion";
+    weather?: "clear" | "rain" | "fog" | "snow";
+    time_of_day?: "day" | "dusk" | "night" | "dawn";
+    detection_sensitivity?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -889,7 +892,10 @@ export interface Recording {
     planner?: string;
     preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
     safety_buffer?: number;
-    sensor?: "perfect";
+    sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion";
+    weather?: "clear" | "rain" | "fog" | "snow";
+    time_of_day?: "day" | "dusk" | "night" | "dawn";
+    detection_sensitivity?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
