@@ -18,6 +18,7 @@ from service.contract.decision import BlockedMove, BriefDecision, Decision, Deci
 from service.contract.forecast import Expected, ExpectedTick, Judged, JudgedDecision
 from service.contract.health import Health, Lateness, Ready
 from service.contract.language import IntentGuide, LanguageGuide, Preview, Saying, TaughtPhrase
+from service.contract.percept import Sensed, SensedThing
 from service.contract.problem import FieldProblemModel, ProblemDocument
 from service.contract.session import (
     Link,
@@ -50,6 +51,6 @@ __all__ = [
     "Health", "IntentGuide", "Judged", "JudgedDecision", "LanguageGuide", "Lateness", "Link", "LogEvent",
     "Metrics", "Moment", "MomentPage", "Moments", "MoveCounts", "Mover", "Option", "Parent", "Parsed",
     "PlayedTick", "Preview", "ProblemDocument", "Ready", "RoadChange", "RoadChanges", "SavedMoment",
-    "SavedMoments", "Saying", "Session", "SessionMoment", "SessionPage", "SessionSummary", "Side", "State",
-    "StepResult", "TaughtPhrase", "Ticket", "TimelineMark", "TimelinePage", "Vehicle",
+    "SavedMoments", "Saying", "Sensed", "SensedThing", "Session", "SessionMoment", "SessionPage",
+    "SessionSummary", "Side", "State", "StepResult", "TaughtPhrase", "Ticket", "TimelineMark", "TimelinePage", "Vehicle",
 ]  # fmt: skip

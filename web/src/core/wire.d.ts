@@ -1052,6 +1052,32 @@ export interface ScenarioParts {
   sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion" | null;
 }
 
+/** What the first ego sees at a tick, and what it misses. */
+export interface Sensed {
+  /** Ticks since the session began. */
+  tick: number;
+  sensor: string;
+  weather: "clear" | "rain" | "fog" | "snow";
+  time_of_day: "day" | "dusk" | "night" | "dawn";
+  seen: SensedThing[];
+  /** Ids of things that are there and not seen where they are. */
+  missed: string[];
+}
+
+/** A thing as it is seen. */
+export interface SensedThing {
+  id: string;
+  kind: Kind;
+  /** [column, row], row 0 at the goal */
+  cell: [number, number];
+  /** How sure the sensor is that it is there, 0 to 1. */
+  likelihood: number;
+  /** The devices that report it in this tick; none where it is remembered, or with another sensor. */
+  sensors: string[];
+  /** Whether it is there. */
+  real: boolean;
+}
+
 /** A session as it stands. */
 export interface Session {
   id: string;
@@ -1178,6 +1204,10 @@ export interface State {
   playback_speed: number | "max";
   mode: Mode;
   planner: string;
+  /** What the egos see with. */
+  sensor: string;
+  weather: "clear" | "rain" | "fog" | "snow";
+  time_of_day: "day" | "dusk" | "night" | "dawn";
   /** The egos, in order of their ids. */
   vehicles: Vehicle[];
   movers: Mover[];
