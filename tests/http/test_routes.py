@@ -77,7 +77,7 @@ async def test_a_session_from_words_and_figures(service: Service) -> None:
         ({"planner": "dwa"}, "not-available", "planner"),
         ({"config": {"sensor": "sonar"}}, "invalid", "config.sensor"),
         ({"scenario": "add five potholes"}, "not-understood", "scenario"),
-        ({"scenario": "simulate a highway with the learned planner"}, "not-available", "scenario"),
+        ({"scenario": "a learned road"}, "not-available", "scenario"),
         ({"scenario": "x" * 501}, "invalid", "scenario"),
         ({"recording": {}}, "invalid", "recording.format"),
     ],
