@@ -52,5 +52,6 @@ __all__ = [
     "Metrics", "Moment", "MomentPage", "Moments", "MoveCounts", "Mover", "Option", "Parent", "Parsed",
     "PlayedTick", "Preview", "ProblemDocument", "Ready", "RoadChange", "RoadChanges", "SavedMoment",
     "SavedMoments", "Saying", "Sensed", "SensedThing", "Session", "SessionMoment", "SessionPage",
-    "SessionSummary", "Side", "State", "StepResult", "TaughtPhrase", "Ticket", "TimelineMark", "TimelinePage", "Vehicle",
+    "SessionSummary", "Side", "State", "StepResult", "TaughtPhrase", "Ticket", "TimelineMark",
+    "TimelinePage", "Vehicle",
 ]  # fmt: skip
