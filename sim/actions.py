@@ -335,7 +335,9 @@ class Pause:
     __pydantic_config__ = _STRICT
 
 
-Fact = Literal["crash", "arrival", "stuck", "episode", "every", "after", "tick", "row", "lane", "near", "count"]
+Fact = Literal[
+    "crash", "arrival", "stuck", "episode", "every", "after", "tick", "row", "lane", "near", "count"
+]
 """What a condition is about. Events (they happen in a tick): `crash`, `arrival`, `stuck`, and `episode`, a road that
 begins. Times: `every`, `after` (since the rule was made) and `tick` (of the session). The rest are so or not so:
 `row`, `lane`, `near` (the distance to the nearest thing) and `count` (how many things there are)."""

@@ -243,6 +243,11 @@ def read_forecast(session: str, ticks: int, tick: int | None) -> Call[answers.Ex
     return Call("GET", _session_path(session, "/forecast"), _json(answers.Expected), params=params)
 
 
+def read_percept(session: str, tick: int | None) -> Call[answers.Sensed]:
+    """What the vehicle sees, beside what is there."""
+    return Call("GET", _session_path(session, "/percept"), _json(answers.Sensed), params={"tick": tick})
+
+
 def read_regret(session: str, first: int, limit: int) -> Call[answers.Judged]:
     """What decisions cost against the best."""
     params = {"from": first, "limit": limit}

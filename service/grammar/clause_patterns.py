@@ -137,7 +137,9 @@ class Patterns:
             at += 1
         return (*ways, tuple(way)), at
 
-    def _way(self, way: Way, piece: int, said: Sentence, at: int, slots: Slots) -> Iterator[tuple[int, Slots]]:
+    def _way(
+        self, way: Way, piece: int, said: Sentence, at: int, slots: Slots
+    ) -> Iterator[tuple[int, Slots]]:
         if piece == len(way):
             yield at, slots
             return

@@ -212,7 +212,9 @@ class _Reading:
         """The actions of a rule, if it can be one."""
         when, until, times = parts.get(WHEN) or parts.get(ONCE), parts.get(UNTIL), parts.get(TIMES)
         if when is None and until is not None and not keeps and body == (Resume(),):
-            return _loaded([*dump(body), {"do": "trigger", "when": until, "then": [{"do": "pause"}], "times": 1}])
+            return _loaded(
+                [*dump(body), {"do": "trigger", "when": until, "then": [{"do": "pause"}], "times": 1}]
+            )
         if not all(isinstance(action, _RULE_ACTIONS) for action in body):
             return []
         if keeps and when is not None and when["fact"] != "every":
@@ -226,7 +228,9 @@ class _Reading:
                 return []
             times = 1
         rule = {"do": "trigger", "when": when, "then": dump(body)}
-        return _loaded([rule | {key: value for key, value in ((UNTIL, until), (TIMES, times)) if value is not None}])
+        return _loaded(
+            [rule | {key: value for key, value in ((UNTIL, until), (TIMES, times)) if value is not None}]
+        )
 
     def _plainly(self, start: int, end: int, *, keeps: bool = False) -> Readings:
         """What a stretch means as a sentence of its own; each of the choices where it is asked about."""

@@ -17,6 +17,7 @@ from sim.actions import WorldAction
 from sim.config import Config
 from sim.decide import announced_before, decide_each, sense
 from sim.events import Event, EventType
+from sim.perceive import sensor_named
 from sim.plan import Decision, traits_of
 from sim.plan.safe_planning import failed_decision, is_foreign, recorded_decision
 from sim.session.edits import Applied, apply
@@ -39,6 +40,9 @@ ACTION_WORK = 4
 
 THINGS_AN_ACTION = 10
 """Number of things on the road that adds one replayed tick to the work of an action."""
+
+LOOK_WORK = 8
+"""Work of a look whose belief is needed later, in replayed ticks: a replay has to look again."""
 
 ROAD_WORK, ROAD_CELLS = 4, 80
 """Work of generating a road in replayed ticks, and the number of cells that adds one more."""
@@ -336,7 +340,9 @@ class Timeline:
         else:
             self._track.note(*[steps[id].decision if id in steps else None for id in egos])
         fired = ACTION_WORK * sum(event.type is EventType.TRIGGERED for event in tick.events)
-        self._worked(_tick_work(tick.state), 1 + fired + _road_work(tick.state, tick.events), entries)
+        look = _look_work(tick.state)
+        again = look + 1 + fired + _road_work(tick.state, tick.events)
+        self._worked(look + _tick_work(tick.state), again, entries)
 
     def _worked(self, work: int, again: int, entries: int) -> None:
         """Adds up the work done and `again`, its cost in a replay; takes a snapshot where one is due."""
@@ -416,6 +422,10 @@ def _tick_work(state: SimState) -> int:
     if len(egos) == 1:
         return traits_of(state.ego().planner or state.config.planner).work
     return max(traits_of(ego.planner or state.config.planner).work for ego in egos.values())
+
+
+def _look_work(state: SimState) -> int:
+    return 0 if sensor_named(state.config.sensor).stateless else LOOK_WORK * len(state.egos)
 
 
 def _action_work(applied: Applied) -> int:

@@ -804,7 +804,10 @@ export interface NewSession {
     planner?: string;
     preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
     safety_buffer?: number;
-    sensor?: "perfect";
+    sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion";
+    weather?: "clear" | "rain" | "fog" | "snow";
+    time_of_day?: "day" | "dusk" | "night" | "dawn";
+    detection_sensitivity?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -1020,7 +1023,10 @@ export interface Recording {
     planner?: string;
     preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
     safety_buffer?: number;
-    sensor?: "perfect";
+    sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion";
+    weather?: "clear" | "rain" | "fog" | "snow";
+    time_of_day?: "day" | "dusk" | "night" | "dawn";
+    detection_sensitivity?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -1195,6 +1201,32 @@ export interface ScenarioParts {
   sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion" | null;
 }
 
+/** What the first ego sees at a tick, and what it misses. */
+export interface Sensed {
+  /** Ticks since the session began. */
+  tick: number;
+  sensor: string;
+  weather: "clear" | "rain" | "fog" | "snow";
+  time_of_day: "day" | "dusk" | "night" | "dawn";
+  seen: SensedThing[];
+  /** Ids of things that are there and not seen where they are. */
+  missed: string[];
+}
+
+/** A thing as it is seen. */
+export interface SensedThing {
+  id: string;
+  kind: Kind;
+  /** [column, row], row 0 at the goal */
+  cell: [number, number];
+  /** How sure the sensor is that it is there, 0 to 1. */
+  likelihood: number;
+  /** The devices that report it in this tick; none where it is remembered, or with another sensor. */
+  sensors: string[];
+  /** Whether it is there. */
+  real: boolean;
+}
+
 /** A session as it stands. */
 export interface Session {
   id: string;
@@ -1327,6 +1359,10 @@ export interface State {
   playback_speed: number | "max";
   mode: Mode;
   planner: string;
+  /** What the egos see with. */
+  sensor: string;
+  weather: "clear" | "rain" | "fog" | "snow";
+  time_of_day: "day" | "dusk" | "night" | "dawn";
   /** The egos, in order of their ids. */
   vehicles: Vehicle[];
   movers: Mover[];
