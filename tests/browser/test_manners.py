@@ -70,7 +70,7 @@ def test_a_chosen_theme_holds_against_the_systems_and_next_time(visit: Visit) ->
     choose_theme(visitor, "Light")
     page.emulate_media(color_scheme="dark")
     until(page, f"(light) => ({GROUND})() === light", light)
-    choose_theme(visitor, "As the system")
+    choose_theme(visitor, "Match system")
     until(page, f"(dark) => ({GROUND})() === dark", dark)
 
 

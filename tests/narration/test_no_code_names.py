@@ -46,7 +46,7 @@ CODE = re.compile(
 )
 """Names that only the code has; "the rules" and "no traffic" are words."""
 ALLOWED = re.compile(
-    r"\bthe (?:priority )?rules\b|priority rules of the source|there were none", re.IGNORECASE
+    r"\b(?:the |priority ){1,2}rules\b|there were none", re.IGNORECASE
 )
 KINDS = [kind for kind in PLACEABLE if kind != "av"]
 

@@ -5,7 +5,7 @@ import { html, render } from "../../vendor/lit-html.js";
 import { decimalText, t } from "../core/texts.js";
 import { readPalette } from "../core/theme.js";
 import { percent } from "../core/words.js";
-import { drawChart } from "../timeline/paint/chart.js";
+import { chartTick, drawChart } from "../timeline/paint/chart.js";
 import { find, fitCanvas } from "../ui/slot.js";
 import { sumOf, WINDOW } from "../why/regret.js";
 
@@ -39,8 +39,8 @@ export function createMetrics(host, page) {
 
   /** The tick under the pointer. @param {MouseEvent} event */
   function tickAt({ clientX, currentTarget }) {
-    const { left, width } = /** @type {HTMLElement} */ (currentTarget).getBoundingClientRect();
-    return (newest?.world?.tick ?? 0) - WINDOW + Math.floor(((clientX - left) / width) * WINDOW);
+    const { left, width, height } = /** @type {HTMLElement} */ (currentTarget).getBoundingClientRect();
+    return chartTick({ width, height }, clientX - left, newest?.world?.tick ?? 0);
   }
 
   /** @param {MouseEvent} event */
@@ -56,6 +56,11 @@ export function createMetrics(host, page) {
     const tick = tickAt(event);
     if (newest?.regret.items.get(tick)) void page.timeTravel.at(tick);
   }
+
+  new ResizeObserver(() => {
+    stale = true;
+    page.wake();
+  }).observe(host);
 
   return {
     update(state, before) {
