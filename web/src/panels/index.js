@@ -51,7 +51,7 @@ export function createPanels(page) {
   const card = createCard(byId("bubble"), page);
   return [
     road,
-    createVerdict(byId("road"), page),
+    createVerdict(byId("road"), page, road.places),
     createTimeline(byId("timeline"), page),
     createPast(byId("past"), page),
     createSessionMenu(byId("session-menu"), page),

@@ -33,7 +33,7 @@ export function createManualDrive(host, page) {
   /** @param {Move} move */
   function drive(move) {
     const { world } = page.state();
-    if (world === null) return;
+    if (world === null || world.status !== "running") return; // a result stays to be seen
     drivenAt = world.tick;
     page.act([{ do: "drive", move }], t("drive.move", { move: moveName(move) }), true);
     if (world.paused) page.act([{ do: "step", ticks: 1 }], t("clock.step"), true);
