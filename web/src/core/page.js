@@ -44,6 +44,8 @@ import { LANGUAGE } from "./texts.js";
  */
 export function createPage({ state, dispatch, subscribe }, connector, parts) {
   let exchanges = 0;
+  /** Exchanges are kept from visit to visit, and those of another tab come in between. */
+  const visit = Math.random().toString(36).slice(2, 8);
 
   /**
    * @param {string} label
@@ -52,7 +54,7 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
    */
   function exchange(label, quiet, message) {
     exchanges += 1;
-    const id = `c${exchanges}`;
+    const id = `${visit}-${exchanges}`;
     dispatch({ type: "said", id, text: label, quiet });
     if (!connector.send(message(id))) dispatch({ type: "unsent", id });
     return id;

@@ -11,6 +11,7 @@ import { logChange, logEvents, logTick } from "../talk/journal.js";
 import { t } from "./texts.js";
 import { NO_STEPS, stepsAfter } from "./undoStack.js";
 import { answerExchange, beginExchange, endUnanswered, refuseExchange, withQuestion } from "../talk/exchanges.js";
+import { withPastLines } from "../talk/pastLines.js";
 import { shownBy } from "../talk/shown.js";
 import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
 import { INITIAL_VIEWS, viewsAfter } from "../ui/views.js";
@@ -23,6 +24,8 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
 /** @import { Phase } from "./socket.js" */
 /** @import { Steps } from "./undoStack.js" */
 /** @import { Exchange } from "../talk/exchanges.js" */
+/** @import { Told } from "../talk/pastLines.js" */
+/** @import { RoadChange } from "./wire.js" */
 /** @import { LoaderEvent, Timeline } from "../timeline/timelineState.js" */
 /** @import { Regret, RegretEvent } from "../why/regret.js" */
 /** @import { Hypothesis } from "../why/alternatives.js" */
@@ -33,6 +36,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @typedef {object} State
  * @property {Phase} connection  how the stream stands; while it is not "live" the rest is stale
  * @property {string | null} session  the session's id
+ * @property {string | null} parent  the session it was forked from
  * @property {string | null} trouble  a sentence when no session could be opened
  * @property {World | null} world  the road at the latest tick heard of
  * @property {Decision | null} decision  the latest, as far as the stream tells it
@@ -86,6 +90,8 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  *   | {type: "past", past: Past}
  *   | {type: "draft", text: string}
  *   | {type: "comparison", other: Hypothesis}
+ *   | {type: "talk", session: string, talk: Exchange[]}
+ *   | {type: "past-lines", decisions: Told[], changes: RoadChange[]}
  *   | LoaderEvent | RegretEvent} PageEvent  what happened on this side of the wire
  */
 
@@ -95,6 +101,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
 export const INITIAL = {
   connection: { phase: "opening" },
   session: null,
+  parent: null,
   trouble: null,
   world: null,
   decision: null,
@@ -164,6 +171,10 @@ function afterDoing(state, event) {
       return { ...state, draft: { text: event.text } };
     case "comparison":
       return { ...state, comparison: { other: event.other } };
+    case "talk":
+      return event.session === state.session ? { ...state, talk: event.talk } : state;
+    case "past-lines":
+      return { ...state, log: withPastLines(state.log, event.decisions, event.changes, state.talk) };
     default:
       return state;
   }
@@ -243,13 +254,20 @@ function arranged(state, change, large = state.large) {
   return { ...state, views, large: covered ? null : large };
 }
 
+/** What is told once a stream has begun, or begun anew. @param {State} state @param {HelloMessage} hello @returns {string | null} */
+function helloNote({ world }, hello) {
+  if (world === null) return hello.session.rules_note ?? null; // once, not with each connection
+  return !world.paused && hello.state.paused ? t("connection.paused_meanwhile", { tick: hello.state.tick }) : null;
+}
+
 /** @param {State} state @param {HelloMessage} hello @returns {State} */
 function afterHello(state, hello) {
-  const note = state.world === null ? (hello.session.rules_note ?? null) : null; // once, not with each connection
+  const note = helloNote(state, hello);
   return {
     ...state,
     ...(note === null ? {} : { notice: { text: note }, announcement: note }),
     session: hello.session.id,
+    parent: hello.session.parent?.id ?? null,
     talk: withQuestion(state.talk, hello.session.pending),
     trouble: null,
     world: worldOf(hello.state),

@@ -12,6 +12,7 @@
  * @property {"pending" | "done" | "refused" | "unknown"} standing  "unknown": the connection was lost before the answer
  * @property {CommandResult | null} result
  * @property {Problem | null} problem
+ * @property {boolean} [closed]  its question waits for no answer any more
  */
 
 export const TALK_EXCHANGES = 100;
@@ -42,7 +43,7 @@ export function refuseExchange(talk, id, problem) {
 export function openQuestion(talk) {
   /** @type {Exchange | null} */ let open = null;
   for (const exchange of talk) {
-    if (exchange.problem?.pending) open = exchange;
+    if (exchange.problem?.pending && !exchange.closed) open = exchange;
     else if (open !== null && exchange.standing === "done" && endsQuestion(exchange, open)) open = null;
   }
   return open?.id ?? null;
@@ -64,7 +65,9 @@ function endsQuestion({ result, quiet }, open) {
  * @returns {Exchange[]}
  */
 export function withQuestion(talk, pending) {
-  if (!pending || openQuestion(talk) !== null) return talk;
+  const open = openQuestion(talk);
+  if (!pending) return open === null ? talk : replaced(talk, open, { closed: true }); // a restart has dropped it
+  if (open !== null) return talk;
   const { text, question, choices } = pending;
   /** @type {Problem} */
   const problem = { type: "/problems/ambiguous", title: "", status: 409, detail: question, errors: [], choices, pending };
