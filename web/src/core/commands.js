@@ -25,6 +25,7 @@ import { t } from "./texts.js";
  * @typedef {object} Doing
  * @property {string} label
  * @property {string} [icon]
+ * @property {boolean} [pressed]  of a button that is on or off
  * @property {Action[][]} [turns]  typed actions, each turn a message of its own
  * @property {(page: Page) => void} [run]  what else is to be done
  */

@@ -53,6 +53,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @property {Views} views  what is shown
  * @property {string | null} large  the part of the page that is enlarged
  * @property {Steps} steps  which changes can be taken back
+ * @property {string[]} queue  moves that wait to be made, of a person who drives
  * @property {Regret} regret  how good and how tight decisions were
  * @property {Look} look  which tick is looked at
  * @property {Past | null} past  that tick, as soon as it has come; null: the present is looked at
@@ -118,6 +119,7 @@ export const INITIAL = {
   views: INITIAL_VIEWS,
   large: null,
   steps: NO_STEPS,
+  queue: [],
   regret: NO_REGRET,
   look: { tick: null, playing: false },
   past: null,
@@ -193,6 +195,7 @@ function afterMessage(state, event) {
         ...(event.views ? arranged(state, event.views) : state),
         steps: stepsAfter(state.steps, event.state.undo, event.sequence),
         world: worldOf(event.state),
+        queue: queueAfter(state.queue, event.changes ?? []),
         prior: null,
         log: logChange(state.log, event),
         highlight: null,
@@ -218,6 +221,13 @@ function afterMessage(state, event) {
     default:
       return state;
   }
+}
+
+/** @param {string[]} queue @param {{path: string, after: unknown}[]} changes @returns {string[]} */
+function queueAfter(queue, changes) {
+  const told = changes.find(({ path }) => path === "queue")?.after;
+  if (Array.isArray(told)) return told.map(String);
+  return changes.some(({ path }) => path === "tick") ? [] : queue;
 }
 
 /** @param {State} state @param {Look} look @returns {State} */
@@ -312,6 +322,7 @@ function afterTick(state, message) {
     ...state,
     world: worldAfter(state.world, message),
     prior: state.world,
+    queue: state.queue.slice(1),
     decision: message.decision ?? null,
     narration: message.narration ?? null,
     log: logTick(state.log, message),

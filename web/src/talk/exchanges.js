@@ -90,14 +90,14 @@ export function endUnanswered(talk) {
 
 /**
  * Those exchanges that are worth showing: all that was said, and of buttons and keys what changed
- * something or was refused (pausing shows on the road itself).
+ * something or was refused (pausing, and moves that were asked for, show on the road itself).
  * @param {Exchange[]} talk
  * @returns {Exchange[]}
  */
 export function shown(talk) {
   return talk.filter(
     ({ quiet, standing, result }) =>
-      !quiet || standing === "refused" || standing === "unknown" || changesOf(result).length > 0 || result?.answer,
+      !quiet || standing === "refused" || standing === "unknown" || changesOf(result).some(({ path }) => path !== "queue") || result?.answer,
   );
 }
 
