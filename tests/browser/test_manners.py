@@ -140,12 +140,12 @@ def test_on_a_phone_nothing_sticks_out_and_every_target_can_be_hit(
     assert not wrong, wrong
 
 
-def test_fine_pointers_get_targets_of_24(visit: Visit) -> None:
+def test_fine_pointers_get_targets_of_28(visit: Visit) -> None:
     visitor = visit()
     visitor.pause()
     visitor.say("add five potholes")
     visitor.say("why did you do that?")
-    assert visitor.page.evaluate(SMALL_TARGETS, 24) == []
+    assert visitor.page.evaluate(SMALL_TARGETS, 28) == []
 
 
 def test_the_keyboard_on_a_phones_screen_hides_neither_box_nor_reply(visit: Visit) -> None:

@@ -15,6 +15,7 @@ import { withPastLines } from "../talk/pastLines.js";
 import { shownBy } from "../talk/shown.js";
 import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
 import { INITIAL_VIEWS, viewsAfter } from "../ui/views.js";
+import { queueAfter } from "../road/moveQueue.js";
 import { worldAfter, worldOf } from "../road/world.js";
 import { NO_REGRET, regretAfter } from "../why/regret.js";
 
@@ -221,13 +222,6 @@ function afterMessage(state, event) {
     default:
       return state;
   }
-}
-
-/** @param {string[]} queue @param {{path: string, after: unknown}[]} changes @returns {string[]} */
-function queueAfter(queue, changes) {
-  const told = changes.find(({ path }) => path === "queue")?.after;
-  if (Array.isArray(told)) return told.map(String);
-  return changes.some(({ path }) => path === "tick") ? [] : queue;
 }
 
 /** @param {State} state @param {Look} look @returns {State} */

@@ -27,6 +27,7 @@ import { createSessionMenu } from "../timeline/sessionMenu.js";
 import { createQuizLoader } from "../talk/quizLoader.js";
 import { createReader } from "../talk/speech.js";
 import { createStatus } from "./status.js";
+import { createTabs } from "./tabs.js";
 import { createTalk } from "../talk/conversation.js";
 import { createTimeline } from "../timeline/timeline.js";
 import { createVerdict } from "./verdict.js";
@@ -70,6 +71,7 @@ export function createPanels(page) {
     card,
     ...createRoadInput(byId("road"), road.places, byId("log"), page, card),
     createViews(byId("views-menu"), page),
+    createTabs(byId("tabs"), page),
     createServerVideo(byId("road"), page),
     createLanes(byId("road")),
     createForesight(page),
