@@ -1,4 +1,4 @@
-"""Tables of the terminal: framed on a screen, plain and no wider than they need to be in a pipe; times as people read them."""
+"""Tables of the terminal, framed on a screen and plain in a pipe; times in the local zone."""
 
 from __future__ import annotations
 

@@ -12,7 +12,8 @@ OVERLAP = """
   const road = document.querySelector("#road").getBoundingClientRect();
   return [...document.querySelectorAll(".drive-pad, .drive-words, .drive-end")]
     .filter((each) => each.checkVisibility())
-    .some((each) => { const box = each.getBoundingClientRect(); return box.top < road.bottom && box.bottom > road.top; });
+    .map((each) => each.getBoundingClientRect())
+    .some((box) => box.top < road.bottom && box.bottom > road.top);
 }
 """
 

@@ -174,7 +174,7 @@ def test_enlarged_to_twice_its_size_everything_can_be_reached(visit: Visit) -> N
         expect(button).to_be_in_viewport(ratio=0.9)
         button.click(trial=True)
     for part in ("plan", "occupancy", "metrics", "log"):
-        visitor.page.locator(f"[data-view={part}]").scroll_into_view_if_needed()
+        visitor.page.locator(f".tab[data-tab={part}]").click()
         expect(visitor.page.locator(f"[data-view={part}]")).to_be_in_viewport()
 
 

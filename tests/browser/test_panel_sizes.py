@@ -14,9 +14,13 @@ CANVASES = """
 () => [...document.querySelectorAll("canvas")]
   .filter((canvas) => canvas.checkVisibility() && !canvas.matches(".service-canvas"))
   .map((canvas) => {
-    const box = (element) => { const { left, top, right, bottom } = element.getBoundingClientRect(); return [left, top, right, bottom]; };
+    const box = (element) => {
+      const { left, top, right, bottom } = element.getBoundingClientRect();
+      return [left, top, right, bottom];
+    };
     return { name: canvas.className || canvas.parentElement.className, pixels: [canvas.width, canvas.height],
-             shown: [canvas.clientWidth, canvas.clientHeight], box: box(canvas), frame: box(canvas.parentElement) };
+             shown: [canvas.clientWidth, canvas.clientHeight],
+             box: box(canvas), frame: box(canvas.parentElement) };
   })
 """
 SCREENS = [(1440, 900), (1366, 768), (1024, 768), (844, 390), (390, 844)]

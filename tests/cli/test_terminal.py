@@ -1,4 +1,4 @@
-"""What the terminal prints: plain tables in a pipe, times in their zone, planners, completion, a line at once."""
+"""What the terminal prints: plain tables in a pipe, local times, planners, completion, a line at once."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
 // @ts-check
 /** What panels may ask for: to read the state, to dispatch events, to say and do things. */
 
+import { spokenAct } from "./spoken.js";
 import { LANGUAGE } from "./texts.js";
 
 /** @import { Command } from "./commands.js" */
@@ -60,11 +61,29 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
     return id;
   }
 
-  return {
+  /** Do what a sentence names among all that keys, menus and buttons do; or let the service hear it. @param {string} text */
+  function say(text) {
+    const spoken = spokenAct(text, parts.commands(), state());
+    if (spoken === null) return void exchange(text, false, (id) => ({ type: "command", id, text, language: LANGUAGE }));
+    for (const actions of spoken.doing.turns ?? []) exchange(text, false, (id) => ({ type: "actions", id, actions }));
+    if (spoken.doing.run) answerHere(text, spoken.doing.label);
+    spoken.doing.run?.(page);
+  }
+
+  /** An exchange that the service has no part in. @param {string} text @param {string} reply */
+  function answerHere(text, reply) {
+    exchanges += 1;
+    const id = `${visit}-${exchanges}`;
+    dispatch({ type: "said", id, text, quiet: false });
+    dispatch({ type: "done-here", id, text, reply });
+  }
+
+  /** @type {Page} */
+  const page = {
     state,
     dispatch,
     subscribe,
-    say: (text) => void exchange(text, false, (id) => ({ type: "command", id, text, language: LANGUAGE })),
+    say,
     put: (text) => dispatch({ type: "draft", text }),
     act: (actions, label, quiet = false) => exchange(label, quiet, (id) => ({ type: "actions", id, actions })),
     send: (message) => void connector.send(message),
@@ -78,4 +97,5 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
     reconnect: () => connector.reconnect(),
     ...parts,
   };
+  return page;
 }

@@ -9,8 +9,9 @@
 
 import { logChange, logEvents, logTick } from "../talk/journal.js";
 import { t } from "./texts.js";
+import { helloNote } from "./helloNote.js";
 import { NO_STEPS, stepsAfter } from "./undoStack.js";
-import { answerExchange, beginExchange, endUnanswered, refuseExchange, withQuestion } from "../talk/exchanges.js";
+import { answerExchange, answerHere, beginExchange, endUnanswered, refuseExchange, withQuestion } from "../talk/exchanges.js";
 import { withPastLines } from "../talk/pastLines.js";
 import { shownBy } from "../talk/shown.js";
 import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
@@ -92,6 +93,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  *   | {type: "past", past: Past}
  *   | {type: "draft", text: string}
  *   | {type: "comparison", other: Hypothesis}
+ *   | {type: "done-here", id: string, text: string, reply: string}
  *   | {type: "talk", session: string, talk: Exchange[]}
  *   | {type: "past-lines", decisions: Told[], changes: RoadChange[]}
  *   | LoaderEvent | RegretEvent} PageEvent  what happened on this side of the wire
@@ -158,6 +160,8 @@ function afterDoing(state, event) {
       return { ...state, talk: beginExchange(state.talk, event), highlight: null };
     case "unsent":
       return { ...state, talk: refuseExchange(state.talk, event.id, NOT_CONNECTED) };
+    case "done-here":
+      return { ...state, talk: answerHere(state.talk, event), announcement: event.reply };
     case "highlight":
       return { ...state, highlight: event.highlight };
     case "notice":
@@ -256,12 +260,6 @@ function arranged(state, change, large = state.large) {
   const views = viewsAfter(state.views, change);
   const covered = large !== null && (!(views[large] ?? true) || Object.keys(change ?? {}).some((name) => views[name] && name !== large));
   return { ...state, views, large: covered ? null : large };
-}
-
-/** What is told once a stream has begun, or begun anew. @param {State} state @param {HelloMessage} hello @returns {string | null} */
-function helloNote({ world }, hello) {
-  if (world === null) return hello.session.rules_note ?? null; // once, not with each connection
-  return !world.paused && hello.state.paused ? t("connection.paused_meanwhile", { tick: hello.state.tick }) : null;
 }
 
 /** @param {State} state @param {HelloMessage} hello @returns {State} */

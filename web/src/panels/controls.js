@@ -24,7 +24,7 @@ const AFTER = "step";
  */
 export function createControls(host, page) {
   return {
-    commands: [faster(1, "+"), faster(-1, "−")],
+    commands: [faster(1, "+"), faster(-1, "−"), ...speedCommands()],
 
     update(state) {
       const off = state.connection.phase !== "live";
@@ -69,6 +69,15 @@ function speed(pace, off, page) {
 /** @param {number | "max"} value @param {Page} page */
 function setSpeed(value, page) {
   page.act([{ do: "set", parameter: "playback_speed", value }], t("clock.speed_set", { pace: paceText(value) }), true);
+}
+
+/** Each speed by its name. @returns {Command[]} */
+function speedCommands() {
+  return SPEEDS.map((pace) => ({
+    name: `speed-${pace}`,
+    group: t("groups.clock"),
+    now: ({ world }) => (world === null || world.pace === pace ? null : { label: t("clock.speed_set", { pace: paceText(pace) }), turns: [[{ do: "set", parameter: "playback_speed", value: pace }]] }),
+  }));
 }
 
 /** @param {1 | -1} direction @param {string} keyName @returns {Command} */

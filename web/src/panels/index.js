@@ -2,6 +2,7 @@
 /** The panels of the page, each in a file of its own; a new panel is a file and a line here. */
 
 import { byId } from "../ui/dom.js";
+import { createAppearance } from "./appearance.js";
 import { createAnnouncer } from "../talk/announcer.js";
 import { createCaption } from "../road/caption.js";
 import { createCard } from "../why/bubbleLoader.js";
@@ -72,6 +73,7 @@ export function createPanels(page) {
     ...createRoadInput(byId("road"), road.places, byId("log"), page, card),
     createViews(byId("views-menu"), page),
     createTabs(byId("tabs"), page),
+    createAppearance(),
     createServerVideo(byId("road"), page),
     createLanes(byId("road")),
     createForesight(page),

@@ -28,8 +28,8 @@ export function createVerdict(host, page, places) {
       {
         name: "next-episode",
         group: t("groups.clock"),
-        key: "n",
-        keyName: "N",
+        key: "e",
+        keyName: "E",
         now: ({ past, world, log }) =>
           world && !past && world.status !== "running"
             ? { label: t("ending.next"), run: () => void goOn(page, endOf({ .../** @type {State} */ (page.state()), log })?.to ?? world.tick) }

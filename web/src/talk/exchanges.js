@@ -29,6 +29,12 @@ export function answerExchange(talk, id, result) {
   return replaced(talk, id, { standing: "done", result });
 }
 
+/** What the page did by itself. @param {Exchange[]} talk @param {{id: string, text: string, reply: string}} done @returns {Exchange[]} */
+export function answerHere(talk, { id, text, reply }) {
+  const result = /** @type {CommandResult} */ (/** @type {unknown} */ ({ text, reply, actions: [], changes: [], corrections: [], answer: null }));
+  return answerExchange(talk, id, result);
+}
+
 /** @param {Exchange[]} talk @param {string} id @param {Problem} problem @returns {Exchange[]} */
 export function refuseExchange(talk, id, problem) {
   return replaced(talk, id, { standing: "refused", problem });
