@@ -32,7 +32,7 @@ loadPastLines(store);
 new TimelineLoader(store, { storage: browserStorage() });
 const timeTravel = new TimeTravel(store);
 keepAddress(store, timeTravel);
-const page = createPage(store, connector, {
+export const page = createPage(store, connector, {
   timeTravel,
   commands: () => commands,
   wake: () => loop.wake(),

@@ -10,7 +10,7 @@ import { hasText, t } from "./texts.js";
 /** @import { State } from "./state.js" */
 
 /** What the service understands as it is said, and tells in its log as it was said. */
-const OF_THE_SERVICE = new Set(["clock", "pause", "step", "undo", "reset"]);
+const OF_THE_SERVICE = new Set(["clock", "pause", "step", "undo"]);
 /** Between the phrases of one act. */
 const BETWEEN = " | ";
 
