@@ -129,7 +129,7 @@ def test_jumps_find_what_matters(run: Visitor) -> None:
     expect(run.page.locator("#announcer")).to_have_text("Tick 40: “set the number of cars to 14”")
     run.page.get_by_role("button", name="Previous event").click()
     expect(run.page.locator(".notice-box")).to_have_text("No earlier change.")
-    run.page.get_by_role("button", name="Next mark").click()
+    run.page.get_by_role("button", name="Next event").click()
     expect(bar(run)).to_be_hidden()
 
 

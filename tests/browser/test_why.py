@@ -83,7 +83,7 @@ def test_free_road_takes_what_is_put_there_from_the_bubble(road: Road) -> None:
     cell = road.ahead(4, 1)
     road.page.mouse.click(*road.at(cell))
     expect(road.bubble).to_contain_text("Free road")
-    road.bubble.get_by_role("button", name="Walker").click()
+    road.bubble.get_by_role("button", name="Pedestrian").click()
     road.done("Put a pedestrian here")
     assert road.in_cell(cell) == ["pedestrian-1"] or road.in_cell(cell)[0].startswith("pedestrian")
 

@@ -65,6 +65,8 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
   function say(text) {
     const spoken = spokenAct(text, parts.commands(), state());
     if (spoken === null) return void exchange(text, false, (id) => ({ type: "command", id, text, language: LANGUAGE }));
+    const { said } = spoken.doing;
+    if (said) return void exchange(text, false, (id) => ({ type: "actions", id, actions: said }));
     for (const actions of spoken.doing.turns ?? []) exchange(text, false, (id) => ({ type: "actions", id, actions }));
     if (spoken.doing.run) answerHere(text, spoken.doing.label);
     spoken.doing.run?.(page);
