@@ -28,6 +28,7 @@ from service.actions.questions import (
     MetricName,
     OtherName,
     OutlookName,
+    MomentName,
     PlannersName,
     QuestionName,
     QuestionTraits,
@@ -91,7 +92,7 @@ class Ask:
     value: int | float | str | None = None
     """the value that a setting is asked to have: answered by yes or no first"""
     term: Term | None = None
-    what: HistoryName | OtherName | OutlookName | BlameName | PlannersName | None = None
+    what: HistoryName | OtherName | OutlookName | BlameName | PlannersName | MomentName | None = None
     until: Annotated[int, Ge(0)] | None = None
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None

@@ -33,8 +33,8 @@ QuestionName = Literal[
     "planners",
     "quiz",
 ]
-OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how"]
-"""What of the time ahead is asked about."""
+OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how", "way", "wait"]
+"""What of the time ahead is asked about; `way`: whether any way leads to the goal, `wait`: how long it stays."""
 BlameName = Literal["fault", "too_late", "foreseen", "avoidable"]
 """What about a crash is asked."""
 PlannersName = Literal["here", "compare", "character", "own"]
@@ -43,6 +43,8 @@ HistoryName = Literal["closest_call", "summary", "since", "between", "seen", "ri
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
+MomentName = Literal["detour"]
+"""What moment is asked about, in place of a tick: the latest move to the side or diagonally."""
 DetailName = Literal["shorter", "longer", "why", "before", "after"]
 """How the last explanation is wanted again; before and after are the decisions next to it."""
 Choosable = Literal["view", "preference", "road", "layout"]
@@ -130,9 +132,9 @@ class QuestionTraits:
 
 
 QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
-    "why": QuestionTraits(("move", "instead", "tick", "ticks", "seconds"), runs_episodes=True),
-    "why_not": QuestionTraits(("move", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
-    "what_if": QuestionTraits(("change", "move", "tick", "ticks", "seconds"), runs_episodes=True),
+    "why": QuestionTraits(("move", "instead", "what", "tick", "ticks", "seconds"), runs_episodes=True),
+    "why_not": QuestionTraits(("move", "what", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
+    "what_if": QuestionTraits(("change", "move", "what", "tick", "ticks", "seconds"), runs_episodes=True),
     "next": QuestionTraits(),
     "scene": QuestionTraits(("kind", "count")),
     "status": QuestionTraits(),
@@ -159,6 +161,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
 }
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
+    **dict.fromkeys(("why", "why_not", "what_if"), get_args(MomentName)),
     "history": get_args(HistoryName),
     "other": get_args(OtherName),
     "outlook": get_args(OutlookName),
@@ -174,6 +177,9 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "arrive_how": (frozenset(),),
     "stuck": (frozenset(),),
     "avoid_how": (frozenset(),),
+    "way": (frozenset(),),
+    "wait": (frozenset(),),
+    "detour": (frozenset(), frozenset(("move",))),
     **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
     "here": (frozenset(), frozenset(("planners",))),
     "compare": (frozenset(), frozenset(("planners",))),

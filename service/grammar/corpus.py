@@ -161,6 +161,8 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "why_not", "move": move}
         yield {"do": "ask", "about": "why", "move": move}
         yield {"do": "ask", "about": "what_if", "move": move}
+        yield {"do": "ask", "about": "why_not", "what": "detour", "move": move}
+        yield {"do": "ask", "about": "what_if", "what": "detour", "move": move}
         yield {"do": "ask", "about": "pattern", "move": move}
         yield {"do": "ask", "about": "why", "instead": move}
     for kind in PLACEABLE:
@@ -177,6 +179,7 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "options", "parameter": name}
     for term in get_args(Term):
         yield {"do": "ask", "about": "term", "term": term}
+    yield {"do": "ask", "about": "why", "what": "detour"}
     yield from _ahead_and_back()
     yield {"do": "ask", "about": "history", "what": "closest_call"}
     yield {"do": "ask", "about": "history", "what": "summary"}

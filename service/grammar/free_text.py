@@ -11,6 +11,7 @@ import re
 from collections.abc import Sequence
 
 from service.grammar.accounting import CLAUSE, IDIOM
+from service.grammar.fragments import BUT, THEN
 from service.grammar.lattice import GLUE, Name
 from service.grammar.lexicon import Lexicon, Sense
 from service.grammar.tokens import Token
@@ -148,8 +149,16 @@ def _taught(tokens: Sequence[Token], at: int, lexicon: Lexicon, said: str) -> Na
         if _longest(lexicon, tokens, end, MEANS):
             while end - 1 > at and _is(lexicon, tokens[end - 1], STARTS_AFTER):
                 end -= 1
+                if _parts_requests(lexicon, tokens[end]):
+                    return None
             return Name(end, said[tokens[at].start : tokens[end - 1].end].strip(_LOOSE))
     return None
+
+
+def _parts_requests(lexicon: Lexicon, token: Token) -> bool:
+    """Whether a word leads to another request: after "define courtesy but" nothing says what it means."""
+    senses = lexicon.senses_of((token.text,))
+    return any(sense.concept == STARTS_AFTER and sense.value in (BUT, THEN) for sense in senses)
 
 
 def _past_means(tokens: Sequence[Token], at: int, lexicon: Lexicon) -> int:

@@ -12,6 +12,8 @@ WHAT_IF = "what_if"
 IF = "if"
 THEN_WHAT = "then_what"
 TEACH = "teach"
+SENTENCE = "sentence"
+"""Value of words for "if" that are so only where a sentence begins: "with 5 potholes, what would you do?"."""
 
 _OPENERS = frozenset((WHAT_IF, IF, TEACH))
 _PASSED = (GLUE, SEPARATOR)
@@ -23,6 +25,8 @@ class Beginnings:
     def __init__(self, lattice: Lattice, start: int, end: int) -> None:
         self._at: list[frozenset[str]] = [frozenset()] * (end + 1)
         """The openers and questions that begin at each token."""
+        self._only_sentences: set[int] = set()
+        """The tokens of those that open something only where a sentence begins."""
         self._past = [end] * (end + 1)
         """The first token from each that is neither glue nor a separator, or that opens something."""
         past_all = [end] * (end + 1)
@@ -31,6 +35,8 @@ class Beginnings:
             here = lattice.edges[at]
             of = {edge[2][0] for edge in here}
             self._at[at] = frozenset(of & {WHAT_IF, IF, THEN_WHAT, TEACH})
+            if IF in of and all(edge.sense.value == SENTENCE for edge in here if edge[2][0] == IF):
+                self._only_sentences.add(at)
             passed = max((edge[1] for edge in here if edge[2][0] in _PASSED), default=at)
             past_all[at] = past_all[min(passed, end)] if passed > at else at
             self._past[at] = self._past[min(passed, end)] if passed > at and of.isdisjoint(_OPENERS) else at
@@ -47,9 +53,11 @@ class Beginnings:
         """Whether words that teach a phrase begin at a token."""
         return TEACH in self._at[self._past[min(at, self._end)]]
 
-    def asks(self, at: int) -> bool:
-        """Whether a what-if question begins at a token."""
+    def asks(self, at: int, *, begins_sentence: bool = True) -> bool:
+        """Whether a what-if question begins at a token, where a sentence begins or within one."""
         at = self._past[min(at, self._end)]
+        if at in self._only_sentences and not begins_sentence:
+            return False
         if WHAT_IF in self._at[at] or at in self._asks_if:
             return True
         return IF in self._at[at] and self._last_asked > at

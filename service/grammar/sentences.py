@@ -212,6 +212,10 @@ class Sentences(ThingSentences):
 
     def _question(self, ask: Ask) -> str:
         match ask.about:
+            case "why" | "why_not" | "what_if" if ask.what is not None:
+                form = "had_moved" if ask.about == "what_if" else "asked"
+                move = "" if ask.move is None else self._word(form, ask.move)
+                return self._say(f"{ask.about}_{ask.what}", move=move)
             case "why" | "why_not":
                 key: str = ask.about
                 if ask.move is not None and ask.about == "why":

@@ -20,6 +20,9 @@ _FURTHER = ("more", "another")
 
 CONTRAST = "contrast"
 
+LEAVING_OUT = frozenset(("v.spare", "thing.none"))
+"""Concepts by which a part leaves something out without a negation: "keep the cones", "no cars"."""
+
 
 class SingleClauses:
     """Reads fragments of one sentence, each by itself or with what the clause before hands on."""
@@ -130,7 +133,7 @@ class SingleClauses:
     def _negate(self, part: Fragment, context: Context) -> Clause | None:
         """A fragment that says what not to do: understood, then left out."""
         start, end = part.start, part.end
-        if self._excepts(part, context) or self._says_nothing_but_no(part):
+        if self._excepts(part, context) or self._says_nothing_but_no(part) or self._says_no_twice(part):
             return None
         for given in (Context(negated=True), Context(context.verb, context.noun, negated=True)):
             found = self._matcher.match(
@@ -142,6 +145,11 @@ class SingleClauses:
                 forbids = () if given.verb else tuple(found[1])
                 return Clause(start, end, found[0], [], negated=True, forbids=forbids)
         return None
+
+    def _says_no_twice(self, part: Fragment) -> bool:
+        """Whether a part denies what leaves something out already: "but do not keep the cones"."""
+        said = self._lattice.between(part.start, part.end)
+        return any(edge.concept in LEAVING_OUT for edge in said)
 
     def _says_nothing_but_no(self, part: Fragment) -> bool:
         """Whether a part has a negation and nothing that it could be about: "turn left, not, …"."""

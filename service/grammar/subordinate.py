@@ -86,7 +86,9 @@ def _move_supposed(lattice: Lattice, start: int, end: int, divide: Divide) -> Di
     said = [value for clause in tried.clauses for value in clause.actions]
     if tried.failed is not None or not said or "move" not in said[0] or said[0].get("about") != WHAT_IF:
         return None
-    if not all(asks([value]) and value.get("about") != WHAT_IF for value in said[1:]):
+    if said[1:] and not asks(said[1:2]):  # what is asked for next may be supposed as well
+        return None
+    if any(value.get("about") == WHAT_IF for value in said[1:]):
         return None
     return tried
 
@@ -109,7 +111,7 @@ def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[str, int, i
             continue
         if begins.teaches(edge.end):
             return whole
-        opens = begins.asks(edge.end)
+        opens = begins.asks(edge.end, begins_sentence=edge.sense.value == STOP)
         if opens or (conditional and edge.sense.value == STOP):
             if begin < edge.start:
                 found.append((after, begin, edge.start))

@@ -52,7 +52,9 @@ class Typos:
         self._numbers = number_words
         self._same = same
         self._by_shape: dict[str, list[str]] = {}
-        for word in words:
+        self.words = frozenset(words)
+        """the vocabulary"""
+        for word in self.words:
             if len(word) >= rules.shortest_meant:
                 for shape in _shapes(word):
                     self._by_shape.setdefault(shape, []).append(word)

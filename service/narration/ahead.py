@@ -44,6 +44,8 @@ class Outlooks:
             "arrival": self._arrival,
             "crash": self._crash,
             "stuck": self._stuck,
+            "way": self._way_through,
+            "wait": self._wait,
             "arrive_how": self._arrive_how,
             "avoid_how": self._avoid_how,
         }
@@ -161,6 +163,38 @@ class Outlooks:
             seconds = self._seconds(found.waits, found.state)
             return [Part(0, self._say("stuck", "waiting", seconds=seconds, end=end))]
         return [Part(0, self._say("stuck", "going", end=end))]
+
+    def _way_through(self, asked: Asked) -> tuple[str, Json]:
+        """Whether any way leads to the goal, and whether the planner takes one."""
+        found = stuck_ahead(asked.timeline)
+        if (shut := found.outlook) is not None and not shut.open:
+            who = Naming(self._sayings, found.state, as_seen=False).things(shut.ids)
+            without = self._say("stuck", "without", who=who) if shut.ids else ""
+            parts = [Part(0, self._say("way", "late" if shut.late else "shut")), Part(1, without)]
+        elif found.outlook is None and found.foresight.arrives == 0.0:
+            parts = [Part(0, self._say("way", "unknown"))]
+        else:
+            end = end_told(self._sayings, found.foresight)
+            taken = "taken" if found.foresight.arrives > 0.0 else "missed"
+            planner = self._sayings.planner(planner_of(found.state), "with")
+            parts = [Part(0, self._say("way", taken, end=end, planner=planner))]
+            if found.plan is not None:
+                parts.append(Part(1, self._way("way", found.plan, found.state)))
+        return within(parts), stuck_json(found)
+
+    def _wait(self, asked: Asked) -> tuple[str, Json]:
+        """How long the ego stays where it is."""
+        found = stuck_ahead(asked.timeline)
+        path = found.foresight.story.path
+        if found.waits >= len(path):
+            return within(self._stuck_parts(found)), stuck_json(found)
+        parts = {
+            "do": self._sayings.move(path[found.waits], "do"),
+            "doing": self._sayings.move(path[found.waits], "doing"),
+            "seconds": self._seconds(found.waits, found.state),
+        }
+        key = "now" if not found.waits else "one_run" if found.foresight.by_chance else "later"
+        return self._say("wait", key, **parts), stuck_json(found)
 
     def _arrive_how(self, asked: Asked) -> tuple[str, Json]:
         found = repair(asked.timeline, "arrive")

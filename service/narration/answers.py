@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
-from service.narration.answerer import Answerer, Json, plain
+from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.blame import Blames
 from service.narration.confidence import Confidences
 from service.narration.details import Details
@@ -28,6 +28,8 @@ from service.narration.talk import OpenQuestion, RecentChanges
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.sessions.facts import Advised, Answerable, Asked
+from sim.explain import QuestionError
+from sim.explain.query import latest_detour
 
 
 class Answers:
@@ -72,6 +74,12 @@ class Answers:
         if isinstance(asked, Advised):
             return self._advices.answer(asked)
         asked = _at_its_tick(asked)
+        if asked.ask.what == "detour":
+            try:
+                asked = _at_the_detour(asked)
+            except QuestionError as error:
+                told = not_so(self._sayings, error.code, error.facts)
+                return plain(self._sayings, asked.ask, asked.timeline.state, told)
         ask = asked.ask
         if ask.ticks is not None and ask.about != "history":
             now = asked.timeline.tick
@@ -82,6 +90,14 @@ class Answers:
         if ask.about == "history" and ask.what in ("riskiest", "similar"):
             return self._moments.answer(asked)
         return self._by_question[ask.about].answer(asked)
+
+
+def _at_the_detour(asked: Asked) -> Asked:
+    """The same question of the latest move to the side or diagonally. Raises `QuestionError`."""
+    ask, found = asked.ask, latest_detour(asked.timeline)
+    if ask.about == "why":  # that is the latest one with its move
+        return replace(asked, ask=replace(ask, what=None, move=found.move))
+    return replace(asked, ask=replace(ask, what=None, tick=found.tick))
 
 
 def _at_its_tick(asked: Asked) -> Asked:

@@ -109,6 +109,14 @@ def decision_meant(timeline: Timeline, tick: int | None, ego: str | None) -> tup
     return state, decision
 
 
+def latest_detour(timeline: Timeline, ego: str | None = None) -> Decision:
+    """The latest decision to move to a side or diagonally. Raises `QuestionError` where none is near."""
+    _, found = _latest(timeline, tuple(move for move in MOVES if move.offset[0]), ego)
+    if found is None:
+        raise QuestionError("no_detour", ticks=min(timeline.tick, LOOK_BACK_TICKS))
+    return found
+
+
 def _latest(timeline: Timeline, moves: tuple[Move, ...], ego: str | None) -> tuple[SimState, Decision | None]:
     """The latest decision that was one of these moves, looked for in spans that grow backwards."""
     stop, span = timeline.tick, 1
