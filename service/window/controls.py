@@ -196,7 +196,7 @@ class Controls:
             self.tell(text("drives_itself"))
 
     def _goes_on(self, key: int) -> bool:
-        """Whether an arrow held down does again what it does: a move when the one before is made, a tick now and then."""
+        """Whether an arrow held down does the same again: a move once the one before is made."""
         session = self.game.session
         manual = session.run.mode is Mode.MANUAL
         if not manual and not (session.paused and key in (pygame.K_LEFT, pygame.K_RIGHT)):

@@ -1,7 +1,7 @@
 """The window's log: the session's lines, with each decision in words between them, as the page has it.
 
-Only the latest decision is looked at after each frame: of a clock that makes several ticks in a frame not every
-decision can be read. Ticks that say the same share a line.
+Only the latest decision is looked at after each frame: of a clock that makes several ticks in a frame
+not every decision can be read. Ticks that say the same share a line.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class DecisionLines:
         """raised when a line is added or taken away"""
 
     def look(self) -> None:
-        """Note the decision that led to the present tick, if it is new; forget those of a future taken back."""
+        """Note the decision that led to the present tick, if it is new; forget what was taken back."""
         tick = self._session.timeline.tick
         if tick == self._seen:
             return

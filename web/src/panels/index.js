@@ -24,6 +24,7 @@ import { createServerVideo } from "../road/serverVideoLoader.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
 import { createSchematic } from "./schematic.js";
+import { createSettings } from "./settingsLoader.js";
 import { createSessionMenu } from "../timeline/sessionMenu.js";
 import { createQuizLoader } from "../talk/quizLoader.js";
 import { createReader } from "../talk/speech.js";
@@ -74,6 +75,7 @@ export function createPanels(page) {
     createViews(byId("views-menu"), page),
     createTabs(byId("tabs"), page),
     createAppearance(),
+    createSettings(page),
     createServerVideo(byId("road"), page),
     createLanes(byId("road")),
     createForesight(page),

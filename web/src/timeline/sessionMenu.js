@@ -18,7 +18,7 @@ import { forks } from "./links.js";
 /** What stands in the session's menu, in this order; null is a line. */
 const MENU = [
   "share", "fork", "open-fork", "rewind", "origin", null, "save-moment", "moments", null,
-  "picture", "video", "recording", "open-recording", null, "quiz", null, "sessions", "new-session",
+  "picture", "video", "recording", "open-recording", null, "quiz", "settings", null, "sessions", "new-session",
 ];
 
 /** @typedef {{link: (url: string, what: string) => void, moments: (naming: boolean) => void, sessions: () => void}} Dialogs */
