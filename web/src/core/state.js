@@ -8,7 +8,6 @@
  */
 
 import { logChange, logEvents, logTick } from "../talk/journal.js";
-import { t } from "./texts.js";
 import { helloNote } from "./helloNote.js";
 import { NO_STEPS, stepsAfter } from "./undoStack.js";
 import { answerExchange, answerHere, beginExchange, endUnanswered, refuseExchange, withQuestion } from "../talk/exchanges.js";
@@ -16,13 +15,14 @@ import { withPastLines } from "../talk/pastLines.js";
 import { shownBy } from "../talk/shown.js";
 import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
 import { INITIAL_VIEWS, viewsAfter } from "../ui/views.js";
+import { NOT_CONNECTED } from "../talk/notConnected.js";
 import { queueAfter } from "../road/moveQueue.js";
 import { worldAfter, worldOf } from "../road/world.js";
 import { NO_REGRET, regretAfter } from "../why/regret.js";
 
 /** @import { Foresight } from "../why/forecast.js" */
 /** @import { Line } from "../talk/journal.js" */
-/** @import { ServerMessage, Decision, Cell, Problem, HelloMessage, TickMessage } from "./protocol.js" */
+/** @import { ServerMessage, Decision, Cell, HelloMessage, TickMessage } from "./protocol.js" */
 /** @import { Phase } from "./socket.js" */
 /** @import { Steps } from "./undoStack.js" */
 /** @import { Exchange } from "../talk/exchanges.js" */
@@ -56,6 +56,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @property {string | null} large  the part of the page that is enlarged
  * @property {Steps} steps  which changes can be taken back
  * @property {string[]} queue  moves that wait to be made, of a person who drives
+ * @property {RoadChange[] | null} roadChanges  what was said and stands, as it was last told
  * @property {Regret} regret  how good and how tight decisions were
  * @property {Look} look  which tick is looked at
  * @property {Past | null} past  that tick, as soon as it has come; null: the present is looked at
@@ -123,6 +124,7 @@ export const INITIAL = {
   large: null,
   steps: NO_STEPS,
   queue: [],
+  roadChanges: null,
   regret: NO_REGRET,
   look: { tick: null, playing: false },
   past: null,
@@ -180,6 +182,8 @@ function afterDoing(state, event) {
       return { ...state, comparison: { other: event.other } };
     case "talk":
       return event.session === state.session ? { ...state, talk: event.talk } : state;
+    case "timeline-changes":
+      return { ...state, roadChanges: event.items };
     case "past-lines":
       return { ...state, log: withPastLines(state.log, event.decisions, event.changes, state.talk) };
     default:
@@ -233,15 +237,6 @@ function afterLook(state, { tick, playing }) {
   const look = { tick, playing };
   return tick === null && state.past !== null ? { ...state, look, past: null, highlight: null } : { ...state, look };
 }
-
-/** @type {Problem} */
-const NOT_CONNECTED = {
-  type: "about:blank",
-  title: t("page.not_connected"),
-  status: 0,
-  errors: [],
-  detail: t("page.not_sent"),
-};
 
 /** @param {State} state @param {Phase} phase @returns {State} */
 function afterPhase(state, phase) {
