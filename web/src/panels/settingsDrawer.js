@@ -142,10 +142,10 @@ function sentenceOf({ name, said = String }, value) {
  * @param {{move: (slider: Slider, value: number) => void, say: (slider: Slider, value: number) => void, close: () => void}} hands
  */
 function template(state, config, moved, hands) {
-  return html`<header class="drawer-head">
+  return html`<div class="drawer-head">
       <h2 class="panel-title" id="settings-title">${t("settings.title")}</h2>
       <button class="head-button" type="button" aria-label=${t("page.close")} title=${t("page.close")} @click=${hands.close}>${icon("close")}</button>
-    </header>
+    </div>
     <div class="drawer-body">
       ${SLIDERS.map((slider) => row(slider, moved.get(slider.name) ?? slider.value(state, config), moved.has(slider.name), hands))}
       <h3 class="panel-title">${t("settings.legend")}</h3>

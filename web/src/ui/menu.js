@@ -19,6 +19,8 @@ import { find } from "./slot.js";
 
 const GAP_PX = 4;
 const EDGE_PX = 8;
+/** A menu with less room than this beneath its button opens over it, where there is more. */
+const LEAST_ROOM_PX = 320;
 /** So narrow that menus open at the edge. */
 const NARROW_PX = 480;
 
@@ -130,9 +132,12 @@ function walk(event, all, list) {
   event.preventDefault();
 }
 
-/** Under its button, and as far to the right; on a phone, at the edge of the window. @param {HTMLElement} list @param {HTMLElement} button */
+/** Under its button, or over it where there is more room; as far to the right, on a phone at the edge of the window. @param {HTMLElement} list @param {HTMLElement} button */
 function place(list, button) {
-  const { bottom, right } = button.getBoundingClientRect();
+  const { top, bottom, right } = button.getBoundingClientRect();
   const edge = innerWidth < NARROW_PX ? EDGE_PX : Math.max(EDGE_PX, innerWidth - right);
-  list.style.inset = `${Math.round(bottom + GAP_PX)}px ${Math.round(edge)}px auto auto`;
+  const above = top > innerHeight - bottom && innerHeight - bottom < LEAST_ROOM_PX;
+  const inset = above ? `auto ${Math.round(edge)}px ${Math.round(innerHeight - top + GAP_PX)}px auto` : `${Math.round(bottom + GAP_PX)}px ${Math.round(edge)}px auto auto`;
+  list.style.inset = inset;
+  list.style.maxBlockSize = `${Math.round((above ? top : innerHeight - bottom) - GAP_PX - EDGE_PX)}px`;
 }
