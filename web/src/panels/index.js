@@ -31,6 +31,7 @@ import { createReader } from "../talk/speech.js";
 import { createStatus } from "./status.js";
 import { createTabs } from "./tabs.js";
 import { createTalk } from "../talk/conversation.js";
+import { createTourLoader } from "./tourLoader.js";
 import { createTimeline } from "../timeline/timeline.js";
 import { createVerdict } from "./verdict.js";
 import { createViews } from "./views.js";
@@ -76,6 +77,7 @@ export function createPanels(page) {
     createTabs(byId("tabs"), page),
     createAppearance(),
     createSettings(page),
+    createTourLoader(page),
     createServerVideo(byId("road"), page),
     createLanes(byId("road")),
     createForesight(page),
