@@ -219,6 +219,7 @@ def _lifespan(
         finally:
             sleeper.cancel()
             context.clock.stop()
+            manager.work.stop()
             await within(STOP_S, close(sleeper))
 
     return lifespan

@@ -23,13 +23,16 @@
     │   ├── NotAQuestion                 understood, but `ask` only answers
     │   ├── NotTeachable                 a phrase that cannot be taught, or forgotten
     │   ├── IdempotencyKeyReused         an idempotency key that was another request's
+    │   ├── TooMuchWork                  it would cost more than a request may, or has
     │   └── RecordingMismatch            replayed to another digest than it says
     ├── TooManySessions             429  the limit of live sessions is reached: `Retry-After`
     ├── RateLimited                 429  a client asks too often: `Retry-After`
     ├── TooManyWrongKeys            429  a client tries keys: `Retry-After`
+    ├── TooMuchAtOnce               429  too many dear requests are under way: `Retry-After`
     ├── QuotaExceeded               429  a client has as much as it may have
     ├── Internal                    500  a defect here; says nothing of its inside
     ├── NotSaved                    503  the store did not take it; nothing was changed
+    ├── Stopped                     503  work was ended before it was done; nothing was changed
     └── NotRestorable               503  what is kept of the session cannot be replayed
 
 `sessions` raises these without knowing HTTP; `api` turns them into responses, and the stream into
@@ -244,6 +247,12 @@ class IdempotencyKeyReused(Invalid):
         )
 
 
+class TooMuchWork(Invalid):
+    """A request that would cost, or has cost, more than is spent on one."""
+
+    slug, title = "too-much-work", "Too much work"
+
+
 class RecordingMismatch(Invalid):
     """A recording whose replay leads to another digest than it names."""
 
@@ -288,6 +297,18 @@ class TooManyWrongKeys(ProblemError):
         )
 
 
+class TooMuchAtOnce(ProblemError):
+    """A client has as many dear requests under way as it may have, or the queue of all is full."""
+
+    status, slug, title = 429, "too-much-at-once", "Too much at once"
+
+    def __init__(self, why: str, wait_s: int) -> None:
+        """`why`: a sentence; `wait_s`: seconds until there may be room."""
+        super().__init__(
+            f"{why} Nothing was done. Try again in {wait_s} s.", headers={"Retry-After": str(wait_s)}
+        )
+
+
 class QuotaExceeded(ProblemError):
     """A client has as many sessions, or as much road, as its quota allows."""
 
@@ -313,6 +334,15 @@ class NotSaved(ProblemError):
         super().__init__(
             "The change could not be saved, so it was not made. Try again; the disk may be full."
         )
+
+
+class Stopped(ProblemError):
+    """The service stops, or whoever asked has gone, before the work was done; it left nothing behind."""
+
+    status, slug, title = 503, "stopped", "Stopped before it was done"
+
+    def __init__(self) -> None:
+        super().__init__("The work was stopped before it was done. Nothing was changed. Ask again.")
 
 
 class NotRestorable(ProblemError):
@@ -349,13 +379,16 @@ KINDS: tuple[type[ProblemError], ...] = (
     NotAQuestion,
     NotTeachable,
     IdempotencyKeyReused,
+    TooMuchWork,
     RecordingMismatch,
     TooManySessions,
     RateLimited,
     TooManyWrongKeys,
+    TooMuchAtOnce,
     QuotaExceeded,
     Internal,
     NotSaved,
+    Stopped,
     NotRestorable,
 )
 """Every problem that can be answered, for the documentation and its tests."""

@@ -40,8 +40,6 @@ class Context:
     """what was answered under idempotency keys"""
     drawing: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
     """one picture at a time"""
-    filming: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
-    """one video at a time"""
     reels: Reels = field(default_factory=Reels)
     event_streams: OpenStreams = field(default_factory=OpenStreams)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from sim.actions import WorldAction
@@ -152,14 +152,16 @@ class Timeline:
         twin._track = self._track.copy()
         return twin
 
-    def advance(self, decided: Decision | None = None) -> StepResult:
-        """One tick on, with what was `decided` for it elsewhere, if it was.
+    def advance(self, decided: Decision | Mapping[str, Decision] | None = None) -> StepResult:
+        """One tick on, with what was `decided` for it elsewhere, if it was; of several egos by id.
 
         Raises `PlannerSilentError`; nothing has then changed. A planner that did not answer in time may
         answer when the tick is run again, so a tick without its answer must not become part of what is
         replayed.
         """
-        tick = _answered(step(self.state) if decided is None else step(self.state, {decided.av: decided}))
+        if isinstance(decided, Decision):
+            decided = {decided.av: decided}
+        tick = _answered(step(self.state) if decided is None else step(self.state, decided))
         self._recent.append(self.state)
         self._went_on(tick, len(self.entries))
         return tick
