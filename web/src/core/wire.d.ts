@@ -748,7 +748,10 @@ export interface NewEvaluation {
     planner?: string;
     preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
     safety_buffer?: number;
-    sensor?: "perfect";
+    sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion";
+    weather?: "clear" | "rain" | "fog" | "snow";
+    time_of_day?: "day" | "dusk" | "night" | "dawn";
+    detection_sensitivity?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
