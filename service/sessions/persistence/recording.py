@@ -44,7 +44,7 @@ async def replay_recording(session: Session, recording: Recording, services: Ses
     """
     most = services.settings.max_recording_ticks
     record, entries = session.record, recording.entries
-    units = log_units(session.timeline.config, entries, recording.tick)
+    units = await services.work.in_thread(log_units, session.timeline.config, entries, recording.tick)
     services.work.check(units)
     try:
         work = partial(replay, session, session.narrator, entries, recording.tick, most=most)
