@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from service.narration.evaluation import EvaluationWords
 from service.narration.goals import Goals
 from service.narration.placing import how_many_now, place_of
 from service.narration.rearranged import told_rearranged
+from service.narration.rules import Rules
 from service.narration.sayings import Sayings
 from service.narration.values import conditions_of, speed, value_of
 from service.sessions.bookmarks import Bookmarked, Jumped
@@ -17,6 +19,7 @@ from service.sessions.facts import (
     Chatted,
     Dropped,
     Fact,
+    JobAsked,
     PauseSet,
     Resolved,
     Stepped,
@@ -27,6 +30,7 @@ from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
 from sim.actions import (
     Add,
     Adjust,
+    Cancel,
     Copy,
     Drive,
     MoveThings,
@@ -39,6 +43,7 @@ from sim.actions import (
     SetCount,
     SetMode,
     Swap,
+    Trigger,
 )
 from sim.config import Config
 from sim.events import EventType
@@ -60,7 +65,9 @@ class Replies:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._evaluations = EvaluationWords(sayings)
         self._goals = Goals(sayings, self._scenario, self.done)
+        self._rules = Rules(sayings)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
@@ -114,6 +121,8 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
+            case JobAsked():
+                return self._evaluations.started(fact)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():
@@ -140,6 +149,8 @@ class Replies:
                 return self._preferring(applied)
             case Set(parameter=parameter) | Adjust(parameter=parameter):
                 return self._setting(parameter, applied)
+            case Trigger() | Cancel():
+                return self._rules.told(applied)
             case Drive(move=move):
                 key = "drive" if applied.state.mode is Mode.MANUAL else "drive_then_auto"
                 said = self._say(key, move=self._sayings.move(move, "do"))

@@ -10,6 +10,9 @@ from service.grammar.topic import ALONE, Phrases, Topic
 from service.sessions.scheduler.clock import Lateness, Ticker
 
 SENTENCES: dict[str, list[dict[str, object]]] = {
+    "run 20 episodes with A* and compare with the rule planner": [
+        {"do": "evaluate", "runs": 20, "planners": ["astar", "priority"]}
+    ],
     "add five potholes": [{"do": "add", "kind": "pothole", "count": 5}],
     "add two cars": [{"do": "add", "kind": "vehicle", "count": 2}],
     "add 300 potholes": [{"do": "add", "kind": "pothole", "count": 300}],

@@ -23,6 +23,7 @@ class SessionStatus:
     playback_speed: float | str = 1.0
     undo: int = 0
     redo: int = 0
+    rules: tuple[Json, ...] = ()
 
 
 def state_json(status: SessionStatus, run: SimState) -> Json:
@@ -56,6 +57,7 @@ def state_json(status: SessionStatus, run: SimState) -> Json:
         "sequence": status.sequence,
         "undo": status.undo,
         "redo": status.redo,
+        "rules": status.rules,
     }
 
 

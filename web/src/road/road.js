@@ -189,7 +189,7 @@ function drawCauses({ pen, palette, progress, state, seen }) {
 /** Where the vehicle is about to be. @param {Moment} moment @param {Pose} ego */
 function drawIntent({ pen, palette, progress, state, world }, { thing, column, row }) {
   // What comes next is shown once the move before it is made.
-  const next = progress === 1 && world.paused ? foreseen(state)?.decision : null;
+  const next = progress === 1 && world.paused && world.mode !== "manual" ? foreseen(state)?.decision : null;
   if (next) {
     const [across, down] = STEPS[next.move];
     if (next.move === "stay") drawWait(pen, [column, row], 0, palette);

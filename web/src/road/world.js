@@ -3,7 +3,7 @@
 
 import { hasText, listText, t } from "../core/texts.js";
 
-/** @import { Kind } from "../core/wire.js" */
+/** @import { Kind, Rule } from "../core/wire.js" */
 /** @import { WireState, TickMessage, Cell, Status, Metrics, Move } from "../core/protocol.js" */
 
 /**
@@ -35,6 +35,7 @@ import { hasText, listText, t } from "../core/texts.js";
  * @property {string} light  time of day
  * @property {Map<string, Thing>} things
  * @property {Metrics} metrics
+ * @property {readonly Rule[]} rules  those that stand
  */
 
 const CELL_M = 5;
@@ -64,6 +65,7 @@ export function worldOf(state) {
     light: state.time_of_day ?? "day",
     things,
     metrics: state.metrics,
+    rules: state.rules ?? [],
   };
 }
 
