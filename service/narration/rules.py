@@ -33,7 +33,9 @@ class Rules:
 
     def text(self, rule: Trigger) -> str:
         """A rule, said back: when, what, and until when."""
-        ends = [] if rule.until is None else [self._say("until", when=self._condition(rule.until, "until_when"))]
+        ends = (
+            [] if rule.until is None else [self._say("until", when=self._condition(rule.until, "until_when"))]
+        )
         if rule.times is not None:
             ends.append(self._say("times_one" if rule.times == 1 else "times", times=rule.times))
         what = ", ".join([self._done(rule), *ends])
@@ -56,7 +58,9 @@ class Rules:
         """What it is called that a rule was made, or rules were switched off."""
         standing = applied.state.triggers.standing
         if isinstance(applied.action, Cancel):
-            gone = next(change.before - change.after for change in applied.changes if change.path == "triggers")
+            gone = next(
+                change.before - change.after for change in applied.changes if change.path == "triggers"
+            )
             said = self._say("cancelled_one" if gone == 1 else "cancelled", count=gone)
             return f"{said} {self.list(applied.state.triggers)}" if standing else said
         made = standing[-1]
@@ -68,7 +72,9 @@ class Rules:
         if not triggers:
             return self._say("none")
         told = [
-            self._say("one_of", number=rule.number, text=self.text(rule.trigger), fired=self._fired(rule.fired))
+            self._say(
+                "one_of", number=rule.number, text=self.text(rule.trigger), fired=self._fired(rule.fired)
+            )
             for rule in triggers.standing
         ]
         return " ".join([self._say("count_one" if len(told) == 1 else "count", count=len(told)), *told])
