@@ -27,14 +27,14 @@ PROBLEMS: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
         "too_many": ("room",),
         "no_drivable_road": ("draws",),
         "is_given_to_reset": (),
-        "weather_not_available": ("value",),
-        "time_of_day_not_available": ("value",),
-        "sensor_not_available": ("value",),
         "planner_not_available": ("value",),
         "second_vehicle_not_available": (),
+        "has_no_way": (),
+        "has_no_start": (),
     }
 )
-"""Codes of a `sim.config.Problem`. Those that end in `_not_available` are of scenarios."""
+"""Codes of a `sim.config.Problem`. Those that end in `_not_available` are of scenarios; `has_no_way` and
+`has_no_start` are of the road of an evaluation."""
 
 EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
     {

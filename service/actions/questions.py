@@ -35,7 +35,10 @@ QuestionName = Literal[
     "rules",
 ]
 OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how", "way", "wait"]
-"""What of the time ahead is asked about; `way`: whether any way leads to the goal, `wait`: how long it stays."""
+"""What of the time ahead is asked about.
+
+`way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is.
+"""
 BlameName = Literal["fault", "too_late", "foreseen", "avoidable"]
 """What about a crash is asked."""
 PlannersName = Literal["here", "compare", "character", "own"]

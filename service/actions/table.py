@@ -228,7 +228,8 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         what_if=WhatIf.NO_EFFECT,
     ),
     Evaluate: ActionTraits(
-        offered=False,
+        changes_session=False,
+        searches=True,
         separates_settings=True,
         model=ModelUse.CONFIRMED,
         what_if=WhatIf.NO_EFFECT,

@@ -23,6 +23,7 @@ from service.contract.model import (
     Tick,
 )
 from service.sessions.scheduler.playback_speed import FASTEST, SLOWEST
+from sim.actions import TimeOfDay, Weather
 
 PlaybackSpeed = Annotated[
     float | Literal["max"],
@@ -136,6 +137,10 @@ class State(Answered):
     playback_speed: PlaybackSpeed
     mode: ModeName
     planner: str
+    sensor: str
+    """What the egos see with."""
+    weather: Annotated[str, DocumentedAs(Weather)]
+    time_of_day: Annotated[str, DocumentedAs(TimeOfDay)]
     vehicles: tuple[Vehicle, ...]
     """The egos, in order of their ids."""
     movers: tuple[Mover, ...]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
@@ -51,13 +51,22 @@ class Narrator:
         self._options = Options(sayings)
         self._sides = SidesBySide(sayings)
         self._first_choice = self._say("first_choice")
+        self._by_name = False
         self._told: dict[Hashable, str] = {}
         """Sentences said before, by all they are made of: the same few are said again and again."""
 
     @classmethod
     def load(cls, code: str = DEFAULT_LANGUAGE, folder: Path | None = None) -> Narrator:
         """A narrator of the language `code`."""
-        return cls(Sayings.load(code, folder))
+        narrator = cls(Sayings.load(code, folder))
+        narrator._by_name = folder is None
+        return narrator
+
+    def __reduce__(self) -> tuple[Callable[[str], Narrator | None], tuple[str]]:
+        """By name, since a worker process has the same files. Raises `TypeError` for sayings of its own."""
+        if not self._by_name:
+            raise TypeError("sayings that were not loaded by the name of their language")
+        return _narrator, (self.language,)
 
     @property
     def language(self) -> str:
@@ -71,6 +80,10 @@ class Narrator:
     def failed(self) -> str:
         """What is said when the simulation has met a defect of its own."""
         return self._sayings.say("log", "events", "failed")
+
+    def slowed(self) -> str:
+        """What is said when decisions take longer than a tick lasts."""
+        return self._sayings.say("log", "events", "slowed")
 
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
         """What the vehicle does at a tick and why, in one line.

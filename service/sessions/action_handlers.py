@@ -15,6 +15,7 @@ from service.actions import (
     Ask,
     Chat,
     Drop,
+    Evaluate,
     Forget,
     Goal,
     Hide,
@@ -31,6 +32,8 @@ from service.actions import (
     Undo,
 )
 from service.actions.table import sets_playback_speed, types_where
+from service.evaluations.refuse import refuse_evaluation
+from service.evaluations.request import evaluation_of
 from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable
 from service.sessions.bookmarks import MAX_BOOKMARKS, Bookmark, Bookmarked, Jumped, unknown_bookmark
 from service.sessions.facts import (
@@ -39,6 +42,7 @@ from service.sessions.facts import (
     Chatted,
     Dropped,
     Fact,
+    JobAsked,
     PauseSet,
     Resolved,
     Stepped,
@@ -55,6 +59,7 @@ from service.sessions.scheduler.playback_speed import (
 from service.sessions.take_back import take_back
 from service.styles import styles
 from sim.actions import Adjust, Set, Weather, WorldAction
+from sim.evaluate import EvaluationError
 from sim.goals import Budget, CancelledError, find_goal
 from sim.hazard_advice import NoAdviceError, advise
 from sim.planner_names import canonical
@@ -127,6 +132,15 @@ def _reach_goal(transaction: Transaction, action: Goal, sequence: int, position:
     except CancelledError as cancelled:
         raise Invalid(transaction.refusals.session("abandoned")) from cancelled
     return Resolved(action, _apply(transaction, found.actions, sequence, position), found)
+
+
+@handles(Evaluate)
+def _evaluate(transaction: Transaction, action: Evaluate, _sequence: int, position: int) -> JobAsked:
+    try:
+        state = transaction.timeline.state
+        return JobAsked(evaluation_of(action, state.config_of(), state))
+    except EvaluationError as error:
+        raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
 
 
 @handles(Style)

@@ -6,8 +6,9 @@ refusals. What a scenario may name is decided by `sim.session.scenario`.
 
 from __future__ import annotations
 
-from service.actions import Action, Ask, Goal, Hide, Show
+from service.actions import Action, Ask, Evaluate, Goal, Hide, Show
 from service.actions.table import WhatIf, sets_playback_speed, traits_of
+from service.evaluations.request import unavailable_part
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from sim.actions import (
@@ -57,6 +58,9 @@ def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
             return words.session("view_of_sensors")
         case Scenario():
             missing = find_unavailable(action)
+            return None if missing is None else words.problem(missing)
+        case Evaluate():
+            missing = unavailable_part(action)
             return None if missing is None else words.problem(missing)
         case Set() | Adjust() if sets_playback_speed(action):
             return None

@@ -26,6 +26,9 @@ class NarratorProtocol(Protocol):
     def failed(self) -> str:
         """What is said when the simulation has met a defect of its own."""
 
+    def slowed(self) -> str:
+        """What is said when decisions take longer than a tick lasts, so that time runs slower."""
+
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
         """What the vehicle does at a tick and why; `run` is the state in which it decided.
 
