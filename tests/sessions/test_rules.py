@@ -114,7 +114,6 @@ async def test_rules_are_told_and_switched_off() -> None:
         (rule("row", {"do": "pause"}, row=9_999), DoesNotFit),
         (rule("every", {**CAR, "where": {"lane": 99}}, ticks=5), DoesNotFit),
         (rule("every", {"do": "add", "kind": "av", "count": 1}, ticks=5), NotAvailable),
-        (rule("crash", {"do": "set", "parameter": "weather", "value": "rain"}), NotAvailable),
     ],
 )
 async def test_what_can_never_be_done_is_refused_when_it_is_said(action: dict[str, Any], kind: type) -> None:
