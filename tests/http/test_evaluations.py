@@ -239,6 +239,9 @@ async def test_a_session_evaluates_its_own_roads_and_says_so(running: Service) -
     assert one["links"]["report"] in said["reply"]
     found = await ended(running, one["links"]["self"])
     assert (found["config"]["potholes"], found["seed"], found["same_road"]) == (30, before["seed"], False)
+    log = (await running.client.get(f"{path}/events")).json()["items"]
+    assert log[-1]["text"].startswith("The evaluation is done: A* arrived in")
+    assert one["links"]["report"] in log[-1]["text"]
     after = (await running.client.get(path)).json()
     assert after["sequence"] == before["sequence"]
 
