@@ -29,6 +29,7 @@ from service.http.not_found import NO_WEBSOCKET
 from service.http.realtime import sse, websocket
 from service.http.routes import (
     advice,
+    backup,
     bookmarks,
     changes,
     commands,
@@ -49,6 +50,7 @@ from service.http.routes import (
     moments,
     pages,
     parse,
+    percept,
     questions,
     recording,
     regret,
@@ -71,6 +73,7 @@ from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import Guard
 from service.sessions.manager import SessionManager
 from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.persistence.retention import Retention
 from service.sessions.scheduler.clock import Clock
 from service.sessions.scheduler.wheel_clock import WheelClock
 from service.sessions.services import SessionServices
@@ -109,10 +112,12 @@ RESOURCES = (
     changes,
     moments,
     forecast,
+    percept,
     regret,
     counterfactual,
     evaluations,
     metrics,
+    backup,
 )
 """The modules whose `router` the application has."""
 
@@ -207,8 +212,8 @@ def _lifespan(
     """Opens what the service needs, and closes it within `STOP_S`."""
     manager, store = context.manager, context.store
 
-    async def close(sleeper: asyncio.Task[None]) -> None:
-        await asyncio.wait([sleeper])
+    async def close(keepers: list[asyncio.Task[None]]) -> None:
+        await asyncio.wait(keepers)
         await context.jobs.close()
         await manager.close()
         if model is not None:
@@ -223,13 +228,28 @@ def _lifespan(
         await context.answers.open()
         await context.jobs.open()
         context.clock.start()
-        sleeper = asyncio.create_task(manager.evictor().run())
+        keepers = [
+            asyncio.create_task(manager.evictor().run()),
+            asyncio.create_task(_retention(context).run()),
+        ]
         try:
             with without_waiting():
                 yield
         finally:
-            sleeper.cancel()
+            for keeper in keepers:
+                keeper.cancel()
             context.clock.stop()
-            await within(STOP_S, close(sleeper))
+            manager.work.stop()
+            await within(STOP_S, close(keepers))
 
     return lifespan
+
+
+def _retention(context: Context) -> Retention:
+    """Deletes what nobody uses; the quotas and the figures hear of it."""
+
+    def expired(session_id: str) -> None:
+        context.guard.quotas.release(session_id)
+        context.metrics.count_expired()
+
+    return Retention(context.store, context.manager, context.settings, expired)

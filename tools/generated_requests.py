@@ -54,6 +54,7 @@ REFUSED: dict[tuple[str, str], tuple[tuple[int, ...], tuple[str, ...]]] = {
     ("GET", f"{OWN}/timeline"): ((422,), (PAST,)),
     ("GET", f"{OWN}/moments"): ((422,), (PAST,)),
     ("GET", f"{OWN}/forecast"): ((422,), (PAST,)),
+    ("GET", f"{OWN}/percept"): ((422,), (PAST,)),
     ("GET", f"{OWN}/regret"): ((422,), (PAST,)),
     ("GET", f"{OWN}/film"): ((422,), (PAST, "422: more frames than are made; no video library")),
     ("POST", "/api/v1/evaluations"): (

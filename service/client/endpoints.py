@@ -16,6 +16,8 @@ from service.contract import answers
 from service.contract.model import Model
 
 PREFIX = "/api/v1"
+BACKUP = f"{PREFIX}/backup"
+"""Read in parts, so it is no `Call`."""
 T = TypeVar("T", bound=Model)
 Seen = TypeVar("Seen", bound=media.Media)
 
@@ -239,6 +241,11 @@ def read_forecast(session: str, ticks: int, tick: int | None) -> Call[answers.Ex
     """What is expected of the ticks to come."""
     params = {"ticks": ticks, "tick": tick}
     return Call("GET", _session_path(session, "/forecast"), _json(answers.Expected), params=params)
+
+
+def read_percept(session: str, tick: int | None) -> Call[answers.Sensed]:
+    """What the vehicle sees, beside what is there."""
+    return Call("GET", _session_path(session, "/percept"), _json(answers.Sensed), params={"tick": tick})
 
 
 def read_regret(session: str, first: int, limit: int) -> Call[answers.Judged]:

@@ -71,10 +71,15 @@ class Recording(Sent):
     )
     name: Name | None = None
     config: ConfigParts
-    entries: list[RecordedEntry] = Field(max_length=10_000)
+    entries: list[RecordedEntry] = Field(max_length=20_000)
     tick: Tick = Field(description="Where it ends.")
     language: str | None = Field(None, max_length=16, description="Of its log; en where none is named.")
     digest: str = Field(description="What the world at its end must be.", max_length=64)
+    seal: str | None = Field(
+        None,
+        max_length=64,
+        description="Of the service that made it, which takes it although it is longer than others may be.",
+    )
 
 
 class NewSession(Sent):

@@ -42,8 +42,8 @@ class Context:
     jobs: JobRunner
     drawing: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
     """one picture at a time"""
-    filming: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
-    """one video at a time"""
+    backups: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
+    """one backup at a time"""
     reels: Reels = field(default_factory=Reels)
     event_streams: OpenStreams = field(default_factory=OpenStreams)
 

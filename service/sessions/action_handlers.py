@@ -7,7 +7,7 @@ Actions that change the world share one handler, since `sim.session.edits` appli
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from service.actions import (
@@ -65,7 +65,9 @@ from sim.hazard_advice import NoAdviceError, advise
 from sim.planner_names import canonical
 from sim.session.edits import Applied
 from sim.session.errors import EditError
-from sim.session.timeline import PlannerSilentError
+from sim.session.timeline import PlannerSilentError, Timeline
+from sim.session.triggers import pauses
+from sim.state import StepResult
 from sim.types import Kind
 
 if TYPE_CHECKING:
@@ -200,9 +202,19 @@ def _step(transaction: Transaction, action: Step, _sequence: int, _position: int
     transaction.paused = True
     timeline = transaction.timeline
     try:
-        return Stepped(timeline.tick, tuple(timeline.advance() for _ in range(action.ticks)))
+        first = timeline.tick
+        return Stepped(first, tuple(_until_paused(timeline, action.ticks)))
     except PlannerSilentError as silence:
         raise planner_timeout_problem(silence, transaction.language) from silence
+
+
+def _until_paused(timeline: Timeline, ticks: int) -> Iterator[StepResult]:
+    """So many ticks, or those up to one in which a rule stops the clock."""
+    for _ in range(ticks):
+        tick = timeline.advance()
+        yield tick
+        if pauses(tick.events):
+            return
 
 
 @handles(Undo, Redo)

@@ -26,6 +26,7 @@ from sim.actions import (
     SetCount,
     SetMode,
     Swap,
+    Trigger,
 )
 from sim.session.scenario import find_unavailable
 from sim.session.settings import is_available
@@ -42,6 +43,8 @@ def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
         return next(
             (said for each in action.change or () if (said := _refuse_imagined(each, language))), None
         )
+    if isinstance(action, Trigger):
+        return next((said for each in action.then if (said := refusal_of(each, language))), None)
     if not traits_of(action).offered:
         return words.session(action.do)
     match action:

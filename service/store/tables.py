@@ -19,7 +19,7 @@ from sqlalchemy import (
     false,
 )
 
-VERSION = 7
+VERSION = 8
 """Of the schema; the number of the last migration."""
 
 METADATA = MetaData()
@@ -40,6 +40,7 @@ SESSIONS = Table(
     Column("parent_tick", Integer),
     Column("standing", Text),
     Column("instead", JSON),
+    Column("used_at", DateTime, index=True, comment="UTC; when it was last used, to within an hour"),
     Column("unseen", Boolean, nullable=False, server_default=false(), comment="deleted, but for its forks"),
     sqlite_autoincrement=True,
 )
@@ -98,6 +99,13 @@ IDEMPOTENCY = Table(
     Column("status", Integer, nullable=False),
     Column("headers", JSON, nullable=False),
     Column("body", LargeBinary, nullable=False),
+)
+
+SECRETS = Table(
+    "secrets",
+    METADATA,
+    Column("name", String(64), primary_key=True),
+    Column("value", LargeBinary, nullable=False, comment="random, and never told"),
 )
 
 JOBS = Table(

@@ -74,8 +74,8 @@ class Batch(Lanes):
     def __init__(self, configs: Sequence[Config], *, after: After = "next") -> None:
         """Every lane at its first episode's beginning. Raises `ValueError` unless all roads have one size.
 
-        Raises `ValueError` as well for other dynamics than "grid", another behaviour than "sideways" and
-        another sensor than "perfect".
+        Raises `ValueError` as well for other dynamics than "grid", another behaviour than "sideways",
+        another sensor than "perfect", other weather than "clear" and another time of day than "day".
         Raises `GenerationError` where a road must be drivable and none is found. What a configuration says of
         its planner is left aside: `run` names one.
         """
@@ -327,8 +327,14 @@ class Batch(Lanes):
 
 
 def _check_rules(configs: Sequence[Config]) -> None:
-    """Raises `ValueError` for a motion, a behaviour or a sensor that is not compiled."""
-    known = {"dynamics": DEFAULT_DYNAMICS, "behaviour": DEFAULT_BEHAVIOUR, "sensor": DEFAULT_SENSOR}
+    """Raises `ValueError` for a motion, a behaviour, a sensor or a condition that is not compiled."""
+    known = {
+        "dynamics": DEFAULT_DYNAMICS,
+        "behaviour": DEFAULT_BEHAVIOUR,
+        "sensor": DEFAULT_SENSOR,
+        "weather": "clear",
+        "time_of_day": "day",
+    }
     for name, compiled in known.items():
         for value in sorted({getattr(config, name) for config in configs} - {compiled}):
             raise ValueError(

@@ -22,6 +22,7 @@ OPERATIONS = {
     for method, operation in item.items()
 }
 ELSEWHERE = {
+    ("GET", "/api/v1/backup"): "`backup` writes it to a file as it comes",
     ("GET", "/metrics"): "for Prometheus, which reads it by itself",
     ("GET", "/api/v1/sessions/{session_id}/events/stream"): "`following` keeps it open",
 }

@@ -46,6 +46,7 @@ ROUTES = {
     "POST /api/v1/sessions/{session_id}/counterfactual",
     "GET /api/v1/sessions/{session_id}/link",
     "GET /api/v1/sessions/{session_id}/forecast",
+    "GET /api/v1/sessions/{session_id}/percept",
     "GET /api/v1/sessions/{session_id}/regret",
     "GET /api/v1/sessions/{session_id}/timeline",
     "GET /api/v1/sessions/{session_id}/changes",
@@ -63,6 +64,7 @@ ROUTES = {
     "GET /healthz",
     "GET /readyz",
     "GET /metrics",
+    "GET /api/v1/backup",
     "POST /api/v1/tickets",
 }
 

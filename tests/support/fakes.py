@@ -29,7 +29,7 @@ SENTENCES: dict[str, list[dict[str, object]]] = {
     "simulate a highway with 10 potholes and 2 obstacles": [
         {"do": "scenario", "road": "highway", "potholes": 10, "vehicles": 2}
     ],
-    "a rainy road": [{"do": "scenario", "weather": "rain"}],
+    "a learned road": [{"do": "scenario", "planner": "rl"}],
     "why did you do that?": [{"do": "ask", "about": "why"}],
     "where are you?": [{"do": "ask", "about": "status"}],
     "pothole 2m ahead, speed 40 km/h": [

@@ -12,7 +12,6 @@ from base64 import urlsafe_b64decode
 from dataclasses import asdict, dataclass
 from typing import Annotated
 
-from anyio import to_thread
 from fastapi import Query, Response
 from pydantic import ValidationError
 
@@ -65,7 +64,7 @@ async def read_link(
     timeline = session.timeline.copy()
     at = timeline.tick if tick is None else tick
     check_tick(at, timeline.tick)
-    carried = await to_thread.run_sync(_carry, timeline, at, session.language)
+    carried = await session.services.work.in_thread(_carry, timeline, at, session.language)
     fits = len(carried) <= MOST_CARRIED
     text = carried if fits else f"{_NAMES}{session.id}/{at}"
     return json_response({"link": text, "tick": at, "carries": fits}, headers=etag(session.sequence))

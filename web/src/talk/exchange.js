@@ -98,7 +98,8 @@ function problemTemplate(problem, page, open) {
   return html`<p class="reply">${problem.detail || problem.title}</p>
     ${errors.length > 0 ? html`<ul class="errors">${errors.map(({ message }) => html`<li>${message}</li>`)}</ul>` : nothing}
     ${
-      choices.length > 0
+      // Once a question is answered or dropped its choices say something else, or nothing.
+      choices.length > 0 && (open || !problem.pending)
         ? offers(t("exchange.choices"), [
             ...choices.map(({ text, actions }) => offer(text, () => page.act(actions, text))),
             open ? dropButton(page) : nothing,
