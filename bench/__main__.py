@@ -12,6 +12,7 @@ PARTS = (
     "planners",
     "families",
     "scaling",
+    "evaluations",
     "language",
     "explain",
     "live",

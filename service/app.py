@@ -13,6 +13,7 @@ from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from fastapi import FastAPI
 from starlette.routing import BaseRoute
 
+from service.evaluations.announce import announcer
 from service.evaluations.kinds import EvaluationJobs
 from service.http import errors, openapi
 from service.http.conditional.answers import KeptAnswers
@@ -156,6 +157,7 @@ def create_app(
     model = model or create_model(settings)
     jobs = JobRunner(store, [EvaluationJobs()], make_executor)
     manager = SessionManager(SessionServices(store, clock, narrator, settings, jobs))
+    jobs.on_done = announcer(manager)
     languages = Languages.load() if language is None else Languages({DEFAULT_LANGUAGE: language})
     aliases = Aliases(store, languages)
     interpreter = Interpreter(

@@ -220,6 +220,7 @@ def _rest() -> Iterator[dict[str, Any]]:
     for kind in get_args(ChatKind):
         yield {"do": "chat", "kind": kind}
     yield {"do": "evaluate", "runs": 500, "planners": ["astar", "priority"]}
+    yield {"do": "evaluate", "runs": 100, "planners": ["astar"], "road": "this"}
     yield {"do": "find_worst", "runs": 200, "planner": "astar"}
     for goal in get_args(GoalName):
         if goal != "separates":

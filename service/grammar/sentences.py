@@ -340,6 +340,10 @@ class Sentences(RuleSentences):
         named = self._say("evaluate_with", planners=self._words["and"].join(planners)) if planners else ""
         parts = self._parts(action.scenario) if action.scenario is not None else ""
         scenario = self._say("evaluate_on", parts=parts) if parts else ""
+        if action.road is not None:
+            if action.runs is None or parts:
+                raise Unsayable("an evaluation of this road without a number of runs, or with a scenario")
+            return self._say("evaluate_this", runs=action.runs, planners=named)
         if action.runs is not None:
             return self._say("evaluate", runs=action.runs, planners=named, scenario=scenario)
         key = "evaluate_planners" if planners else "evaluate_scenario"

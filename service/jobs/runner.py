@@ -77,6 +77,8 @@ class JobRunner:
         self._stopping = False
         self._thread = CapacityLimiter(1)
         self._ended: dict[str, asyncio.Event] = {}
+        self.on_done: Callable[[JobRecord], None] = lambda _: None
+        """told of every job that has a result"""
 
     async def open(self) -> None:
         """Take up the jobs that a stop or a crash has interrupted."""
@@ -219,6 +221,7 @@ class JobRunner:
         if result is not None and job_id in self._live:
             done = replace(self._live[job_id], state=JobState.DONE, done=record.total, result=result)
             await self._end(done)
+            self.on_done(done)
 
     async def _keep(self, job_id: str, piece: Piece, body: bytes) -> None:
         record = self._live.get(job_id)

@@ -46,9 +46,7 @@ from sim.batch.tick_kernel import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks
 from sim.config import Config
 from sim.generation import GenerationError
 from sim.planner_names import Alias, canonical
-from sim.rules.behaviour import DEFAULT_BEHAVIOUR
-from sim.rules.dynamics import DEFAULT_DYNAMICS
-from sim.sensor_names import DEFAULT_SENSOR
+from sim.rules.compiled import COMPILED_VALUES
 from sim.state import SimState
 
 BatchPlanner = Literal["priority", "bfs", "weighted", "astar", "dijkstra", Alias]
@@ -328,14 +326,7 @@ class Batch(Lanes):
 
 def _check_rules(configs: Sequence[Config]) -> None:
     """Raises `ValueError` for a motion, a behaviour, a sensor or a condition that is not compiled."""
-    known = {
-        "dynamics": DEFAULT_DYNAMICS,
-        "behaviour": DEFAULT_BEHAVIOUR,
-        "sensor": DEFAULT_SENSOR,
-        "weather": "clear",
-        "time_of_day": "day",
-    }
-    for name, compiled in known.items():
+    for name, compiled in COMPILED_VALUES.items():
         for value in sorted({getattr(config, name) for config in configs} - {compiled}):
             raise ValueError(
                 f"a batch has {name} {compiled!r} only, not {value!r}; run such roads one by one"

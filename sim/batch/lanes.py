@@ -61,6 +61,7 @@ from sim.config import COUNTS, Config
 from sim.generation import assign_ids
 from sim.randomness import Stream
 from sim.repetition import Watch
+from sim.rules.compiled import COMPILED_KINDS
 from sim.search.costs import weights
 from sim.state import SimState
 from sim.types import KINDS, MARKED, MOVES, PLACEABLE, Kind, Outcome
@@ -72,9 +73,7 @@ After = Literal["next", "restart", "stop"]
 """What follows an end: the next road as live, once the result has stood; the lane's first road, at once;
 or nothing."""
 
-_KINDS: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN)
-"""The kinds that the kernels know."""
-_UNKNOWN: Final = tuple(kind for kind in PLACEABLE if kind not in _KINDS)
+_UNKNOWN: Final = tuple(kind for kind in PLACEABLE if kind not in COMPILED_KINDS)
 """The kinds that a batch refuses."""
 _OUTCOMES: Final = tuple(Outcome)
 STATE: Final = ("_state", "_lanes", "_wholes", "_ticks", "_counts")
@@ -364,7 +363,7 @@ def check_kinds(configs: Sequence[Config]) -> None:
 
 def _refuse_kind(kind: Kind) -> NoReturn:
     """Raises `ValueError`: the kernels do not know things of this kind."""
-    known = listed([KINDS[each].plural for each in _KINDS])
+    known = listed([KINDS[each].plural for each in COMPILED_KINDS])
     raise ValueError(
         f"a batch has {known} on its roads, and no {KINDS[kind].plural}; run such roads one by one"
     )

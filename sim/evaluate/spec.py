@@ -12,13 +12,11 @@ from sim.config import COUNTS, Config, ConfigError, Problem
 from sim.generation import GenerationError, generate
 from sim.oracle.lower_bounds import can_arrive
 from sim.randomness import MAX_SEED
-from sim.rules.behaviour import DEFAULT_BEHAVIOUR
-from sim.rules.dynamics import DEFAULT_DYNAMICS
+from sim.rules.compiled import COMPILED_KINDS, compiled_rules
 from sim.search.reactive import ImpatientError
-from sim.sensor_names import DEFAULT_SENSOR
 from sim.session.saved_config import saved_config
 from sim.state import SimState
-from sim.types import Kind, Outcome
+from sim.types import Outcome
 from sim.validation import validate_world
 from sim.world.notation import read
 from sim.world.world import World
@@ -31,7 +29,6 @@ COMPILED_FROM: Final = 1_000
 """Episodes from which the compiled batch pays: loading it takes a second or two in each process."""
 COMPILED: Final = {"priority": 50_000, "astar": 1_000, "dijkstra": 1_000, "bfs": 5_000}
 """Episodes of a part, by planner, that the compiled batch runs in well under a second or so."""
-_BATCHED: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN)
 LIVE_PART: Final = 20
 """Episodes of a part where a planner is asked one decision at a time."""
 DETAILED: Final = 200
@@ -142,10 +139,8 @@ class Evaluation:
         return (
             self.world is None
             and config.layout is None
-            and config.dynamics == DEFAULT_DYNAMICS
-            and config.behaviour == DEFAULT_BEHAVIOUR
-            and config.sensor == DEFAULT_SENSOR
-            and not any(getattr(config, name) for kind, name in COUNTS.items() if kind not in _BATCHED)
+            and compiled_rules(config)
+            and not any(getattr(config, name) for kind, name in COUNTS.items() if kind not in COMPILED_KINDS)
         )
 
     def parts(self) -> list[Part]:

@@ -93,7 +93,8 @@ async def test_the_sentence_starts_what_the_figures_do_and_the_report_says_what_
     assert found[0]["state"] == "done"
     assert (found[0]["done"], found[0]["progress"]) == (30, 1)
     assert found[0]["text"][0].startswith("A* arrived in every one of 30 runs")
-    assert "Priority rules of the source arrived in 2" in found[0]["text"][1]
+    arrived = found[0]["result"]["planners"]["priority"]["arrived"]["count"]
+    assert f"arrived in {arrived} of 30 runs" in found[0]["text"][1]
 
 
 async def test_the_report_is_one_page_and_its_links_open_the_episodes(running: Service) -> None:
@@ -195,7 +196,7 @@ async def test_a_restart_goes_on_where_it_was_and_finds_the_same() -> None:
         ({"road": "this"}, "road"),
         ({"text": "add five potholes"}, "text"),
         ({"text": "evaluate A*", "runs": 5}, "runs"),
-        ({"text": "run 100 episodes with A* in the rain"}, "weather"),
+        ({"text": "run 100 episodes with DWA"}, "planners"),
     ],
 )
 async def test_what_cannot_be_run_is_said_before_it_begins(
@@ -239,6 +240,9 @@ async def test_a_session_evaluates_its_own_roads_and_says_so(running: Service) -
     assert one["links"]["report"] in said["reply"]
     found = await ended(running, one["links"]["self"])
     assert (found["config"]["potholes"], found["seed"], found["same_road"]) == (30, before["seed"], False)
+    log = (await running.client.get(f"{path}/events")).json()["items"]
+    assert log[-1]["text"].startswith("The evaluation is done: A* arrived in")
+    assert one["links"]["report"] in log[-1]["text"]
     after = (await running.client.get(path)).json()
     assert after["sequence"] == before["sequence"]
 

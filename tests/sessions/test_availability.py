@@ -81,7 +81,7 @@ REFUSED: list[dict[str, Any]] = [
     {"do": "show", "view": "sensors"},
     {"do": "hide", "view": "sensors"},
     {"do": "evaluate", "planners": ["astar", "dwa"]},
-    {"do": "evaluate", "scenario": {"weather": "rain"}},
+    {"do": "evaluate", "scenario": {"planner": "rl"}},
     {"do": "find_worst"},
     {"do": "record", "on": True},
     {"do": "add", "kind": "av", "count": 1},

@@ -104,6 +104,17 @@ def test_the_compiled_batch_drives_as_the_live_engine_does(planner: str, config:
     assert np.array_equal(fast["roads"]["solvable"], slow["roads"]["solvable"])
 
 
+@pytest.mark.parametrize(
+    "parts", [{"weather": "rain"}, {"time_of_day": "night"}, {"sensor": "camera"}, {"layout": "narrows"}]
+)
+def test_roads_that_the_compiled_batch_does_not_know_are_driven_one_by_one(parts: dict[str, str]) -> None:
+    spec = Evaluation(planners=("priority",), episodes=1_000, config=Config(**parts))  # type: ignore[arg-type]
+    assert not spec.compiled("priority")
+    assert spec.part_size == LIVE_PART
+    rows = run_part(spec, Part(300, 2))
+    assert len(rows["priority"]["outcome"]) == 2
+
+
 def test_parts_that_are_missing_or_there_twice_are_noticed() -> None:
     body = pack_part(PAIR.to_json(), Part(0, 20), lambda: False)
     with pytest.raises(ValueError, match="missing"):
