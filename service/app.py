@@ -13,6 +13,7 @@ from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from fastapi import FastAPI
 from starlette.routing import BaseRoute
 
+from service.evaluations.kinds import EvaluationJobs
 from service.http import errors, openapi
 from service.http.conditional.answers import KeptAnswers
 from service.http.deps import Context
@@ -27,6 +28,7 @@ from service.http.not_found import NO_WEBSOCKET
 from service.http.realtime import sse, websocket
 from service.http.routes import (
     advice,
+    backup,
     bookmarks,
     changes,
     commands,
@@ -35,6 +37,7 @@ from service.http.routes import (
     create_session,
     decisions,
     docs,
+    evaluations,
     events,
     forecast,
     forks,
@@ -46,6 +49,7 @@ from service.http.routes import (
     moments,
     pages,
     parse,
+    percept,
     questions,
     recording,
     regret,
@@ -61,12 +65,14 @@ from service.http.routes import language as language_route
 from service.interpreter.aliases import Aliases
 from service.interpreter.interpreter import Interpreter
 from service.interpreter.languages import Language, Languages
+from service.jobs import JobRunner
 from service.llm import LanguageModel, create_model
 from service.narration import Narrator
 from service.resources import DEFAULT_LANGUAGE
 from service.security.guard import Guard
 from service.sessions.manager import SessionManager
 from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.persistence.retention import Retention
 from service.sessions.scheduler.clock import Clock
 from service.sessions.scheduler.wheel_clock import WheelClock
 from service.sessions.services import SessionServices
@@ -74,6 +80,7 @@ from service.settings import Settings
 from service.shutdown import STOP_S, within
 from service.store import Store, open_store
 from service.version import VERSION
+from sim.evaluate.executor import Executor
 from sim.plan.sandbox.client import without_waiting
 
 RESOURCES = (
@@ -104,9 +111,12 @@ RESOURCES = (
     changes,
     moments,
     forecast,
+    percept,
     regret,
     counterfactual,
+    evaluations,
     metrics,
+    backup,
 )
 """The modules whose `router` the application has."""
 
@@ -131,6 +141,7 @@ def create_app(
     narrator: NarratorProtocol | None = None,
     clock: Clock | None = None,
     model: LanguageModel | None = None,
+    make_executor: Callable[[], Executor] | None = None,
 ) -> FastAPI:
     """The service. Whatever is not given is what the settings name, or the default.
 
@@ -143,7 +154,8 @@ def create_app(
     clock = clock or WheelClock(late=measured.lateness.observe)
     narrator = narrator or Narrator.load()
     model = model or create_model(settings)
-    manager = SessionManager(SessionServices(store, clock, narrator, settings))
+    jobs = JobRunner(store, [EvaluationJobs()], make_executor)
+    manager = SessionManager(SessionServices(store, clock, narrator, settings, jobs))
     languages = Languages.load() if language is None else Languages({DEFAULT_LANGUAGE: language})
     aliases = Aliases(store, languages)
     interpreter = Interpreter(
@@ -157,7 +169,7 @@ def create_app(
     )
     measured.read_from(manager)
     guard, answers = Guard(settings), KeptAnswers(store)
-    context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers)
+    context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers, jobs)
 
     app = FastAPI(
         separate_input_output_schemas=False,
@@ -198,8 +210,9 @@ def _lifespan(
     """Opens what the service needs, and closes it within `STOP_S`."""
     manager, store = context.manager, context.store
 
-    async def close(sleeper: asyncio.Task[None]) -> None:
-        await asyncio.wait([sleeper])
+    async def close(keepers: list[asyncio.Task[None]]) -> None:
+        await asyncio.wait(keepers)
+        await context.jobs.close()
         await manager.close()
         if model is not None:
             await model.aclose()
@@ -211,15 +224,30 @@ def _lifespan(
         await manager.open()
         await aliases.open()
         await context.answers.open()
+        await context.jobs.open()
         context.clock.start()
-        sleeper = asyncio.create_task(manager.evictor().run())
+        keepers = [
+            asyncio.create_task(manager.evictor().run()),
+            asyncio.create_task(_retention(context).run()),
+        ]
         try:
             with without_waiting():
                 yield
         finally:
-            sleeper.cancel()
+            for keeper in keepers:
+                keeper.cancel()
             context.clock.stop()
             manager.work.stop()
-            await within(STOP_S, close(sleeper))
+            await within(STOP_S, close(keepers))
 
     return lifespan
+
+
+def _retention(context: Context) -> Retention:
+    """Deletes what nobody uses; the quotas and the figures hear of it."""
+
+    def expired(session_id: str) -> None:
+        context.guard.quotas.release(session_id)
+        context.metrics.count_expired()
+
+    return Retention(context.store, context.manager, context.settings, expired)

@@ -7,9 +7,12 @@
     ├── CrossSite                   403  a page of another site asks
     ├── NotFound                    404  no such route or resource
     │   ├── UnknownSession
-    │   └── UnknownDecision
+    │   ├── UnknownDecision
+    │   └── UnknownJob
     ├── MethodNotAllowed            405  the route exists, the method does not
     ├── Ambiguous                   409  could mean several things: `choices`
+    ├── BackupUnderWay              409  one backup at a time
+    ├── NotFinished                 409  an evaluation has no report yet
     ├── PreconditionFailed          412  the session was changed since: `sequence`
     ├── ContentTooLarge             413  more bytes than are read
     ├── UnsupportedMediaType        415  the content type is not JSON
@@ -33,6 +36,7 @@
     ├── Internal                    500  a defect here; says nothing of its inside
     ├── NotSaved                    503  the store did not take it; nothing was changed
     ├── Stopped                     503  work was ended before it was done; nothing was changed
+    ├── BackupFailed                503  no backup was made
     └── NotRestorable               503  what is kept of the session cannot be replayed
 
 `sessions` raises these without knowing HTTP; `api` turns them into responses, and the stream into
@@ -130,6 +134,15 @@ class UnknownSession(NotFound):
         )
 
 
+class UnknownJob(NotFound):
+    """No evaluation has this id."""
+
+    slug, title = "unknown-evaluation", "No such evaluation"
+
+    def __init__(self) -> None:
+        super().__init__("No evaluation has this id. GET /api/v1/evaluations lists those there are.")
+
+
 class UnknownDecision(NotFound):
     """No decision was taken at this tick."""
 
@@ -146,6 +159,26 @@ class Ambiguous(ProblemError):
     """A text could mean several things; `choices` are sentences to choose from."""
 
     status, slug, title = 409, "ambiguous", "This could mean several things"
+
+
+class BackupUnderWay(ProblemError):
+    """A backup is being made or read already."""
+
+    status, slug, title = 409, "backup-under-way", "A backup is under way"
+
+    def __init__(self) -> None:
+        super().__init__("Somebody else is being sent a backup. One is made at a time; try again later.")
+
+
+class NotFinished(ProblemError):
+    """An evaluation has no result: it is not done yet, or never will be."""
+
+    status, slug, title = 409, "not-finished", "Not finished"
+
+    def __init__(self, state: str) -> None:
+        super().__init__(
+            f"This evaluation is {state}: it has no report.", headers={"Retry-After": "2"}, state=state
+        )
 
 
 class PreconditionFailed(ProblemError):
@@ -345,6 +378,17 @@ class Stopped(ProblemError):
         super().__init__("The work was stopped before it was done. Nothing was changed. Ask again.")
 
 
+class BackupFailed(ProblemError):
+    """No backup could be made; nothing else is concerned."""
+
+    status, slug, title = 503, "backup-failed", "No backup was made"
+
+    def __init__(self) -> None:
+        super().__init__(
+            "No backup could be made; the service's log says why. It needs as much free room as the database."
+        )
+
+
 class NotRestorable(ProblemError):
     """A stored session cannot be replayed."""
 
@@ -364,8 +408,11 @@ KINDS: tuple[type[ProblemError], ...] = (
     NotFound,
     UnknownSession,
     UnknownDecision,
+    UnknownJob,
     MethodNotAllowed,
     Ambiguous,
+    BackupUnderWay,
+    NotFinished,
     PreconditionFailed,
     ContentTooLarge,
     UnsupportedMediaType,
@@ -389,6 +436,7 @@ KINDS: tuple[type[ProblemError], ...] = (
     Internal,
     NotSaved,
     Stopped,
+    BackupFailed,
     NotRestorable,
 )
 """Every problem that can be answered, for the documentation and its tests."""

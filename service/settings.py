@@ -96,6 +96,16 @@ class Settings(BaseSettings):
         default=False,
         description="Whether running sessions without subscribers leave memory too. They return paused.",
     )
+    keep_sessions_days: int | None = Field(
+        default=None,
+        ge=1,
+        le=36_500,
+        description="Days after their last use after which stored sessions are deleted. Unset: never.",
+    )
+    keep_named_sessions: bool = Field(
+        default=True,
+        description="Whether sessions with a name or a bookmark are kept however long they are not used.",
+    )
     snapshot_work: int = Field(
         default=4_000,
         ge=1,

@@ -32,6 +32,7 @@ QuestionName = Literal[
     "blame",
     "planners",
     "quiz",
+    "rules",
 ]
 OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how", "way", "wait"]
 """What of the time ahead is asked about.
@@ -161,6 +162,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
     "planners": QuestionTraits(("what", "planners", "planner", "tick"), ("what",), runs_episodes=True),
     "quiz": QuestionTraits(runs_episodes=True),
+    "rules": QuestionTraits(),
 }
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {

@@ -29,11 +29,17 @@ COMMANDS: Final = {
         "service.cli.watch",
         "Print what a session does as it does it, until Ctrl-C or until it is deleted.",
     ),
+    "evaluate": (
+        "service.cli.evaluate",
+        "Run many episodes with one or several planners and report what came of them.",
+    ),
     "replay": (
         "service.cli.replay",
         "Replay a recording and compare digests. Exits with 1 when they differ.",
     ),
     "sessions": ("service.cli.sessions", "List sessions, newest first."),
+    "backup": ("service.cli.backup", "Write all that the service keeps to one file, while it runs."),
+    "restore": ("service.cli.restore", "Put a backup in the place of the database."),
     "planners": ("service.cli.planners", "List the planners, each with a line about it."),
     "doctor": (
         "service.cli.doctor",

@@ -80,7 +80,10 @@ def _here(recording: dict[str, Any]) -> _Replayed:
     from service.settings import Settings
 
     size = len(json.dumps(recording).encode()) + 65_536
-    app = create_app(Settings(database="memory:", max_recording_bytes=size))
+    # The work is that of whoever runs the command.
+    tick = recording.get("tick")
+    ticks = max(tick if isinstance(tick, int) else 0, Settings.model_fields["max_recording_ticks"].default)
+    app = create_app(Settings(database="memory:", max_recording_bytes=size, max_recording_ticks=ticks))
 
     async def replayed() -> _Replayed:
         async with (

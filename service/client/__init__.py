@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from service.client.async_client import AsyncClient
 from service.client.async_session import AsyncSession
+from service.client.backup import Backup
 from service.client.call import DEFAULT_URL
 from service.client.errors import (
     Ambiguous,
@@ -50,6 +51,7 @@ __all__ = [
     "Answer",
     "AsyncClient",
     "AsyncSession",
+    "Backup",
     "BlockedMove",
     "Changed",
     "Choice",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncGenerator, AsyncIterator
+from collections.abc import AsyncGenerator, AsyncIterator, Sequence
 from contextlib import aclosing
+from pathlib import Path
 from types import TracebackType
 from typing import TypeVar
 
@@ -13,6 +14,7 @@ from websockets.asyncio.client import connect
 
 from service.client import endpoints
 from service.client.async_session import AsyncSession
+from service.client.backup import Backup, read_backup
 from service.client.call import (
     DEFAULT_URL,
     LOST,
@@ -31,6 +33,7 @@ from service.client.recording import Recording
 from service.client.sse import EventParser, EventStreamReader
 from service.client.stream_reader import FAILURES, MAX_MESSAGE_BYTES, StreamReader
 from service.contract import answers
+from service.whole_file import whole_file
 
 T = TypeVar("T")
 
@@ -53,6 +56,7 @@ class AsyncClient:
         self.url = check_url(url)
         self._headers = auth_headers(api_key)
         self._timeout_s = timeout_s
+        self._patient = httpx.Timeout(timeout_s, read=None)
         self._http = httpx.AsyncClient(
             base_url=self.url, headers=self._headers, timeout=timeout_s, transport=transport
         )
@@ -130,6 +134,62 @@ class AsyncClient:
     async def saved(self, *, after: str | None = None, limit: int = 50) -> answers.MomentPage:
         """Moments that were given a name, of all sessions, those named last first, a page of them."""
         return await self._send(endpoints.list_all_bookmarks(after, limit))
+
+    async def backup(self, path: str | Path, *, replace: bool = False) -> Backup:
+        """Writes all that the service keeps to a file, for `roadtalk restore`.
+
+        The file has its name only when it is whole. Raises `OSError` where it cannot be written.
+        """
+        with whole_file(Path(path), replace=replace) as file:
+            try:
+                async with self._http.stream("GET", endpoints.BACKUP, timeout=self._patient) as response:
+                    if not response.is_success:
+                        await response.aread()
+                        raise read_problem(response)
+                    backup = read_backup(Path(path), response)
+                    async for part in response.aiter_bytes():
+                        file.write(part)
+            except httpx.TransportError as error:
+                raise unreachable(self.url, error) from error
+        return backup
+
+    async def evaluate(
+        self,
+        text: str | None = None,
+        *,
+        runs: int | None = None,
+        planners: Sequence[str] | None = None,
+        scenario: str | None = None,
+        config: Json | None = None,
+        session: str | None = None,
+        road: str | None = None,
+        seed: int | None = None,
+        language: str | None = None,
+    ) -> answers.Evaluation:
+        """Starts many episodes: `evaluate("run 500 episodes with A*")`, or in figures.
+
+        They are run in the background; `evaluation` says how far they are, and `report` what came of them.
+        """
+        call = endpoints.create_evaluation(
+            text, runs, planners, scenario, config, session, road, seed, language
+        )
+        return await self._send(call)
+
+    async def evaluations(self, *, after: str | None = None, limit: int = 50) -> answers.EvaluationPage:
+        """Evaluations, newest first, a page of them."""
+        return await self._send(endpoints.list_evaluations(after, limit))
+
+    async def evaluation(self, evaluation_id: str) -> answers.Evaluation:
+        """How far an evaluation is, and what came of it."""
+        return await self._send(endpoints.read_evaluation(evaluation_id))
+
+    async def cancel_evaluation(self, evaluation_id: str) -> None:
+        """Cancels an evaluation; one that has ended is forgotten."""
+        await self._send(endpoints.delete_evaluation(evaluation_id))
+
+    async def report(self, evaluation_id: str, *, format: str = "markdown") -> str:
+        """The report of an evaluation: `html`, `markdown`, `json`, or `csv` with a line for each episode."""
+        return await self._send(endpoints.read_report(evaluation_id, format))
 
     def session(self, session_id: str) -> AsyncSession:
         """The session of this id; nothing is asked before it is used."""

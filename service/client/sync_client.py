@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
+from pathlib import Path
 from types import TracebackType
 from typing import TypeVar
 
@@ -13,6 +14,7 @@ import httpx
 from websockets.sync.client import connect
 
 from service.client import endpoints
+from service.client.backup import Backup, read_backup
 from service.client.call import (
     DEFAULT_URL,
     LOST,
@@ -32,6 +34,7 @@ from service.client.sse import EventParser, EventStreamReader
 from service.client.stream_reader import FAILURES, MAX_MESSAGE_BYTES, StreamReader
 from service.client.sync_session import Session
 from service.contract import answers
+from service.whole_file import whole_file
 
 T = TypeVar("T")
 
@@ -54,6 +57,7 @@ class Client:
         self.url = check_url(url)
         self._headers = auth_headers(api_key)
         self._timeout_s = timeout_s
+        self._patient = httpx.Timeout(timeout_s, read=None)
         self._http = httpx.Client(
             base_url=self.url, headers=self._headers, timeout=timeout_s, transport=transport
         )
@@ -131,6 +135,62 @@ class Client:
     def saved(self, *, after: str | None = None, limit: int = 50) -> answers.MomentPage:
         """Moments that were given a name, of all sessions, those named last first, a page of them."""
         return self._send(endpoints.list_all_bookmarks(after, limit))
+
+    def backup(self, path: str | Path, *, replace: bool = False) -> Backup:
+        """Writes all that the service keeps to a file, for `roadtalk restore`.
+
+        The file has its name only when it is whole. Raises `OSError` where it cannot be written.
+        """
+        with whole_file(Path(path), replace=replace) as file:
+            try:
+                with self._http.stream("GET", endpoints.BACKUP, timeout=self._patient) as response:
+                    if not response.is_success:
+                        response.read()
+                        raise read_problem(response)
+                    backup = read_backup(Path(path), response)
+                    for part in response.iter_bytes():
+                        file.write(part)
+            except httpx.TransportError as error:
+                raise unreachable(self.url, error) from error
+        return backup
+
+    def evaluate(
+        self,
+        text: str | None = None,
+        *,
+        runs: int | None = None,
+        planners: Sequence[str] | None = None,
+        scenario: str | None = None,
+        config: Json | None = None,
+        session: str | None = None,
+        road: str | None = None,
+        seed: int | None = None,
+        language: str | None = None,
+    ) -> answers.Evaluation:
+        """Starts many episodes: `evaluate("run 500 episodes with A*")`, or in figures.
+
+        They are run in the background; `evaluation` says how far they are, and `report` what came of them.
+        """
+        call = endpoints.create_evaluation(
+            text, runs, planners, scenario, config, session, road, seed, language
+        )
+        return self._send(call)
+
+    def evaluations(self, *, after: str | None = None, limit: int = 50) -> answers.EvaluationPage:
+        """Evaluations, newest first, a page of them."""
+        return self._send(endpoints.list_evaluations(after, limit))
+
+    def evaluation(self, evaluation_id: str) -> answers.Evaluation:
+        """How far an evaluation is, and what came of it."""
+        return self._send(endpoints.read_evaluation(evaluation_id))
+
+    def cancel_evaluation(self, evaluation_id: str) -> None:
+        """Cancels an evaluation; one that has ended is forgotten."""
+        self._send(endpoints.delete_evaluation(evaluation_id))
+
+    def report(self, evaluation_id: str, *, format: str = "markdown") -> str:
+        """The report of an evaluation: `html`, `markdown`, `json`, or `csv` with a line for each episode."""
+        return self._send(endpoints.read_report(evaluation_id, format))
 
     def session(self, session_id: str) -> Session:
         """The session of this id; nothing is asked before it is used."""

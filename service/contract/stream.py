@@ -124,6 +124,8 @@ class ResultMessage(Message):
     type: Literal["result"]
     id: str
     result: CommandResult
+    replayed: bool | None = None
+    """True where it was given before, under the same key."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

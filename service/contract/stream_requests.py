@@ -12,6 +12,15 @@ from service.contract.text import StorableText
 
 Id = Annotated[str, Field(max_length=100, description="Chosen by the client, given back with the answer.")]
 
+Key = Annotated[
+    str | None,
+    Field(
+        pattern="^[!-~]+$",
+        max_length=255,
+        description="Chosen by the client: done once under this key, and answered the same for 24 hours.",
+    ),
+]
+
 
 class Command(Sent):
     """Something said."""
@@ -21,6 +30,7 @@ class Command(Sent):
     text: StorableText
     dry_run: bool = False
     language: str | None = Field(None, max_length=16)
+    key: Key = None
 
 
 class Actions(Sent):
@@ -30,6 +40,7 @@ class Actions(Sent):
     id: Id
     actions: Strictly[list[Action]] = Field(min_length=1, max_length=MAX_ACTIONS)
     dry_run: bool = False
+    key: Key = None
 
 
 class Ping(Sent):

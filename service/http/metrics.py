@@ -31,6 +31,9 @@ STORE_S = (0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.5, 1.0, 5.0)
 Channel = Literal["rest", "socket"]
 CHANNELS: tuple[Channel, ...] = ("rest", "socket")
 
+BackupFate = Literal["made", "failed"]
+BACKUP_FATES: tuple[BackupFate, ...] = ("made", "failed")
+
 _SLUGS = frozenset(kind.slug for kind in KINDS)
 
 disable_created_metrics()  # type: ignore[no-untyped-call] # a second series for each, of no use here
@@ -131,6 +134,11 @@ class Metrics:
         )
         registry.register(cast(Any, self))
         refusals = Counter("roadtalk_refusals", "Problems answered over HTTP", ("kind",), registry=registry)
+        self._expired = Counter(
+            "roadtalk_expired_sessions", "Stored sessions deleted as unused", registry=registry
+        )
+        backups = Counter("roadtalk_backups", "Backups, by what became of them", ("fate",), registry=registry)
+        self._backups = {fate: backups.labels(fate) for fate in BACKUP_FATES}
         self._refusals = {slug: refusals.labels(slug) for slug in sorted(_SLUGS)}
 
     def read_from(self, manager: SessionManager) -> None:
@@ -150,6 +158,14 @@ class Metrics:
     def count_refusal(self, slug: str) -> None:
         """Counts a problem that is answered."""
         self._refusals[slug].inc()
+
+    def count_expired(self) -> None:
+        """Counts a session that was deleted because nobody had used it."""
+        self._expired.inc()
+
+    def count_backup(self, fate: BackupFate) -> None:
+        """Counts a backup that was made, or was not."""
+        self._backups[fate].inc()
 
     def collect(self) -> Iterator[Metric]:
         """What is counted elsewhere: snapshots by their keeper, lateness of ticks; called by the registry."""

@@ -15,6 +15,7 @@ from service.narration.naming import Naming
 from service.narration.options import Options
 from service.narration.planner_reasons import planner_reasons
 from service.narration.replies import Replies
+from service.narration.rules import Rules
 from service.narration.sayings import Sayings
 from service.narration.side_by_side import SidesBySide
 from service.narration.values import speed
@@ -46,6 +47,7 @@ class Narrator:
         self._replies = Replies(sayings)
         self._answers = Answers(sayings)
         self._ends = Ends(sayings)
+        self._rules = Rules(sayings)
         self._options = Options(sayings)
         self._sides = SidesBySide(sayings)
         self._first_choice = self._say("first_choice")
@@ -177,6 +179,8 @@ class Narrator:
             return self._ends.text(run)
         if event.type is EventType.NO_WAY:
             return self._no_way(event, run)
+        if event.rule is not None:
+            return self._rules.event(event, self._replies)
         ticks = run.world.episode_tick
         reason = ""
         if event.type is EventType.HELD_BACK and event.move is not None:
@@ -209,6 +213,10 @@ class Narrator:
             return self._sayings.say("log", "no_way", event.how or "plain")
         form = "one" if len(event.ids) == 1 else "many"
         return self._sayings.say("log", "no_way", "without", form, who=self._pointed_at(event, run))
+
+    def rules(self, run: SimState) -> list[dict[str, Any]]:
+        """The rules that stand, as JSON values."""
+        return self._rules.listed(run.triggers)
 
     def speed(self, pace: PlaybackSpeed) -> str:
         """A playback speed."""

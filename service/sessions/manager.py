@@ -32,6 +32,7 @@ from service.sessions.persistence.recording import Recording, replay_recording
 from service.sessions.persistence.replay import ReplayError
 from service.sessions.persistence.replay_elsewhere import replay_log
 from service.sessions.persistence.restore import restore
+from service.sessions.persistence.seal import SECRET, Seal
 from service.sessions.persistence.snapshot_records import UnfitError
 from service.sessions.persistence.snapshot_scheduler import SnapshotScheduler
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
@@ -76,8 +77,11 @@ class SessionManager:
         self._services = services
         self._live: dict[str, Session] = {}
         self._restoring: dict[str, asyncio.Task[Session]] = {}
+        self._expiring: set[str] = set()
         self._creating = 0
         self._stored_count = 0
+        self.seal: Seal | None = None
+        """that of the recordings made here, once the store is open"""
         self.idle_times = IdleTimes()
         self.snapshots = SnapshotScheduler(services.store, services.settings)
 
@@ -104,6 +108,7 @@ class SessionManager:
     async def open(self) -> None:
         """Count the stored sessions; only this manager adds to them from now on. Raises `StoreError`."""
         self._stored_count = await self._services.store.count()
+        self.seal = Seal(await self._services.store.secret(SECRET))
 
     @property
     def subscriber_count(self) -> int:
@@ -214,6 +219,8 @@ class SessionManager:
         if live is not None:
             self.idle_times.touch(session_id)
             return live
+        if session_id in self._expiring:
+            raise UnknownSession
         # All who ask at once wait for the same replay.
         task = self._restoring.get(session_id)
         if task is None:
@@ -257,6 +264,20 @@ class SessionManager:
         if session is not None:
             await session.close()
             session.subscribers.close()
+
+    async def expire(self, session_id: str) -> bool:
+        """Delete a stored session unless somebody uses it; returns whether it was deleted."""
+        if session_id in self._live or session_id in self._restoring:
+            return False
+        self._expiring.add(session_id)
+        try:
+            found = await self._services.store.delete(session_id)
+        finally:
+            self._expiring.discard(session_id)
+        if found:
+            self._stored_count -= 1
+            self.snapshots.forget(session_id)
+        return found
 
     def evictor(self) -> Evictor:
         """The evictor of idle sessions."""

@@ -44,6 +44,9 @@ class NarratorProtocol(Protocol):
     def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""
 
+    def rules(self, run: SimState) -> list[dict[str, Any]]:
+        """The rules that stand in a state, as JSON values, with the words of each."""
+
     def speed(self, pace: PlaybackSpeed) -> str:
         """A playback speed: `4×`."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from service.jobs import JobRunner
 from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.scheduler.clock import Clock
 from service.settings import Settings
@@ -19,6 +20,8 @@ class SessionServices:
     clock: Clock
     narrator: NarratorProtocol
     settings: Settings
+    jobs: JobRunner | None = None
+    """what runs evaluations; None: they are refused"""
     work: WorkExecutor = field(init=False)
 
     def __post_init__(self) -> None:

@@ -20,6 +20,7 @@ import structlog
 from service.actions import Action
 from service.actions.table import traits_of
 from service.contract.encode.state import SessionStatus
+from service.evaluations.start import start_evaluation
 from service.problems import NotSaved, ProblemError, UnknownName, UnknownSession
 from service.server_timing import part as timed
 from service.sessions.bookmarks import add_other_session
@@ -29,6 +30,7 @@ from service.sessions.event_feed import CHANGED, EventFeed
 from service.sessions.facts import (
     Asked,
     Fact,
+    JobAsked,
     merge_views,
     parts_with_events,
     performed_actions,
@@ -71,6 +73,7 @@ from sim.events import Event as RoadEvent
 from sim.explain.summary import long_to_tell
 from sim.plan import Decision
 from sim.session.timeline import PlannerSilentError, Timeline
+from sim.session.triggers import pauses
 from sim.state import SimState, StepResult
 from sim.types import Mode
 
@@ -136,7 +139,10 @@ class Session:
     def status(self) -> SessionStatus:
         """What the state message says beside the simulation: id, pause, sequence, speed, undo and redo."""
         steps, undone = self.undo_stack.steps, len(self.undo_stack.undone)
-        return SessionStatus(self.id, self.paused, self.sequence, self.playback_speed, steps, undone)
+        rules = self.narrator.rules(self.run) if self.run.triggers else ()
+        return SessionStatus(
+            self.id, self.paused, self.sequence, self.playback_speed, steps, undone, tuple(rules)
+        )
 
     @property
     def period_s(self) -> float:
@@ -245,8 +251,16 @@ class Session:
             self.feed.publish_tick(before, tick, ())
         else:
             self.feed.publish_tick(before, tick, self.feed.log_events(tick.state, tick))
+            if tick.events and pauses(tick.events):
+                self._pause_by_rule(tick)
         if tick.events and tick.state.world.episode_tick == 0:
             self.reachability.start_road(tick.state)
+
+    def _pause_by_rule(self, tick: StepResult) -> None:
+        """Stop the clock since a rule says so; the log has a line of it already."""
+        self.set_paused(True)
+        text = " ".join(self.narrator.event(event, tick.state) for event in tick.events if pauses((event,)))
+        self.feed.publish_change(None, text, (), ())
 
     def _start_manual_override(self, silence: PlannerSilentError) -> None:
         """Switch to manual driving, by a stored change: a replay does not ask that planner again."""
@@ -351,6 +365,7 @@ class Session:
                 transaction.abandoned = abandoned or transaction.abandoned
                 with timed("apply"):
                     transaction, facts = await self._perform(transaction, utterance)
+                facts = facts if dry_run else await self._start_jobs(facts, utterance)
                 seen = await self.reachability.after_change(transaction.timeline.state, facts)
                 event = (
                     None if seen is None else self.reachability.event_for(seen, transaction.timeline.state)
@@ -364,8 +379,12 @@ class Session:
                         self.feed.publish_change(utterance.text, outcome.reply, (), (), views)
                     return outcome
                 outcome = await self._make_outcome(utterance, facts, self.sequence + 1, event, transaction)
-                with timed("store"):
-                    await self._store(outcome, transaction, preconditions)
+                try:
+                    with timed("store"):
+                        await self._store(outcome, transaction, preconditions)
+                except NotSaved:
+                    await self._forget_jobs(facts)
+                    raise
                 if seen is not None:
                     self.reachability.remember(seen)
                 self._commit(transaction, outcome)
@@ -394,6 +413,24 @@ class Session:
             raise await add_other_session(
                 self.services.store, problem, utterance.actions, utterance.language or self.language
             ) from None
+
+    async def _start_jobs(self, facts: tuple[Fact, ...], utterance: Utterance) -> tuple[Fact, ...]:
+        """Start what is asked for in the background. Raises `NotAvailable`, `QuotaExceeded` or `NotSaved`."""
+        started: list[Fact] = []
+        language = utterance.language or self.language
+        for fact in facts:
+            if isinstance(fact, JobAsked):
+                fact = await start_evaluation(self.services.jobs, fact, language, self.id)
+            started.append(fact)
+        return tuple(started)
+
+    async def _forget_jobs(self, facts: tuple[Fact, ...]) -> None:
+        """Take back what was started, since nothing of the utterance is done."""
+        jobs = self.services.jobs
+        for fact in facts:
+            if jobs is not None and isinstance(fact, JobAsked) and fact.job is not None:
+                with suppress(NotSaved):  # the store does not answer; it is forgotten in memory all the same
+                    await jobs.delete(fact.job)
 
     async def _make_outcome(
         self,

@@ -6,16 +6,23 @@ from those. A snapshot may be stored beside it: it saves time, and losing it los
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
+from pathlib import Path
 from typing import Any, Protocol
 
 from service.resources import DEFAULT_LANGUAGE
 
+SECRET_BYTES = 32
+
 
 class StoreError(Exception):
     """The store failed; the message is for whoever runs the service."""
+
+
+class LockedError(StoreError):
+    """Another process has the database open."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -133,6 +140,26 @@ class SnapshotRecord:
     body: bytes
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobRecord:
+    """A background job: what is to be done (`spec`), how far it is, and what it came to.
+
+    `number` orders jobs by age and is given by the store. `done` of `total` counts work; `result` and `spec`
+    are JSON values.
+    """
+
+    id: str
+    kind: str
+    state: str
+    created_at: datetime
+    spec: Mapping[str, Any]
+    done: int = 0
+    total: int = 0
+    result: Mapping[str, Any] | None = None
+    error: str | None = None
+    number: int = 0
+
+
 class Store(Protocol):
     """Durable storage of sessions. Every method may raise `StoreError`.
 
@@ -170,7 +197,16 @@ class Store(Protocol):
         """The number of stored sessions."""
 
     async def save_ticks(self, ticks: Mapping[str, int]) -> None:
-        """Store the ticks of clocks, by session id; unknown sessions are skipped."""
+        """Store the ticks of clocks, by session id; unknown sessions are skipped. Counts as use."""
+
+    async def touch(self, session_ids: Collection[str], at: datetime) -> None:
+        """Store that sessions are in use; unknown ones are skipped."""
+
+    async def unused(self, since: datetime, limit: int, *, named: bool) -> Sequence[str]:
+        """Up to `limit` sessions not used since a time, the longest unused first.
+
+        `named`: also those with a name or a bookmark. None where no session at all was used since then.
+        """
 
     async def delete(self, session_id: str) -> bool:
         """Delete a session, its entries and its snapshot; returns whether it existed.
@@ -211,3 +247,35 @@ class Store(Protocol):
 
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
         """All phrases of an owner, by language and key."""
+
+    async def secret(self, name: str) -> bytes:
+        """A secret of this store, the same whenever it is asked for; made when it is first."""
+
+    async def backup(self, target: Path) -> None:
+        """Copy everything into a new SQLite file (`service.store.backup`), while others use the store."""
+
+    async def create_job(self, record: JobRecord) -> JobRecord:
+        """Store a new job; returns it numbered."""
+
+    async def update_job(self, record: JobRecord) -> None:
+        """Replace the state, the figures, the result and the error of a job; ignored for an unknown one."""
+
+    async def job(self, job_id: str) -> JobRecord | None:
+        """A job, or None."""
+
+    async def jobs(
+        self, limit: int, before: int | None = None, state: str | None = None
+    ) -> Sequence[JobRecord]:
+        """Up to `limit` jobs, newest first, of those with a number below `before` and, if named, in a state.
+
+        Their results are left out.
+        """
+
+    async def delete_job(self, job_id: str) -> bool:
+        """Delete a job and its parts; returns whether it existed."""
+
+    async def save_job_part(self, job_id: str, key: str, body: bytes, done: int) -> None:
+        """Store what a piece of work came to, once, and how much is done; ignored for an unknown job."""
+
+    async def job_parts(self, job_id: str) -> Mapping[str, bytes]:
+        """What the finished pieces of a job came to, by key."""

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import os
 import sqlite3
+import threading
+from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -18,12 +20,13 @@ from typing import Any
 from anyio import to_thread
 from sqlalchemy import event
 from sqlalchemy.engine import URL, make_url
-from sqlalchemy.exc import ArgumentError, DBAPIError
+from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncEngine, create_async_engine
 from sqlalchemy.pool import AsyncAdaptedQueuePool
 
 from service.store import wal
-from service.store.base import StoreError
+from service.store.backup import copy_server, copy_sqlite
+from service.store.base import LockedError, StoreError
 
 _BUSY_S = 1.0
 """Time to wait for a file or table that another process has locked."""
@@ -54,6 +57,8 @@ class Sqlite:
     def __init__(self, url: URL) -> None:
         self._url = url.set(drivername="sqlite+aiosqlite")
         self._path = url.database or ""
+        self._open: sqlite3.Connection | None = None
+        self.path = Path(self._path)
         self.name = f"The database {self._path}"
 
     async def check(self) -> None:
@@ -66,13 +71,12 @@ class Sqlite:
         except UnicodeDecodeError:
             found = "not even the fault can be told"  # SQLite's message quotes it
         except (sqlite3.OperationalError, OSError) as error:
-            why = str(error)
             if isinstance(error, sqlite3.Error) and error.sqlite_errorcode in _HELD:
-                why = (
-                    "it is locked: another program, perhaps another Roadtalk service, has it open. "
-                    "Stop that one, or name another file in ROADTALK_DATABASE."
-                )
-            raise StoreError(f"{self.name} cannot be opened: {why}") from error
+                raise LockedError(
+                    f"{self.name} cannot be opened: it is locked: another program, perhaps another Roadtalk "
+                    "service, has it open. Stop that one, or name another file in ROADTALK_DATABASE."
+                ) from error
+            raise StoreError(f"{self.name} cannot be opened: {error}") from error
         except sqlite3.Error as error:
             found = str(error)
         if found != "ok":
@@ -100,9 +104,37 @@ class Sqlite:
         """An engine with one connection and no overflow: callers queue for it, so writes never overlap."""
         # A rollback after each transaction, ended or not, is one more way to the driver's thread and back: as
         # long as all else but the disk.
-        engine = _one_connection(self._url, _prepare_sqlite, pool_reset_on_return=None)
+        engine = _one_connection(
+            self._url,
+            _prepare_sqlite,
+            pool_reset_on_return=None,
+            connect_args={"factory": self._connect, "check_same_thread": False},
+        )
         event.listen(engine.sync_engine, "reset", _end_left_open)
         return engine
+
+    async def copy_open(self, target: Path, stopped: threading.Event) -> None:
+        """Copy the database that the engine has open; reads and writes go on between the steps."""
+        if self._open is None:
+            raise StoreError("The database is not open")
+        await to_thread.run_sync(copy_sqlite, self._open, target, stopped)
+
+    async def copy(self, target: Path) -> None:
+        """Copy a database that nobody has open. Raises `LockedError` or `StoreError`."""
+        if not self.path.exists():
+            raise StoreError(f"{self.name} is not there.")
+        await self.check()
+        await to_thread.run_sync(self._copy, target)
+
+    def _copy(self, target: Path) -> None:
+        with closing(sqlite3.connect(self.path, timeout=_BUSY_S)) as connection:
+            connection.execute("PRAGMA locking_mode=EXCLUSIVE")
+            copy_sqlite(connection, target, threading.Event())
+
+    def _connect(self, *given: Any, **named: Any) -> sqlite3.Connection:
+        """The driver's connection, which is also that of a backup: no second one may open the file."""
+        self._open = sqlite3.Connection(*given, **named)
+        return self._open
 
 
 def _check_permissions(path: Path) -> None:
@@ -137,6 +169,24 @@ class Postgres:
             _prepare_postgres,
             connect_args={"timeout": _ANSWER_S, "command_timeout": _ANSWER_S, "server_settings": server},
         )
+
+    async def copy_open(self, target: Path, stopped: threading.Event) -> None:
+        """Copy what the database holds now, over a connection of its own that only reads."""
+        engine = create_async_engine(
+            self._url, isolation_level="REPEATABLE READ", connect_args={"timeout": _ANSWER_S}
+        )
+        try:
+            async with engine.connect() as connection:
+                await copy_server(connection, target, stopped)
+        finally:
+            await engine.dispose()
+
+    async def copy(self, target: Path) -> None:
+        """The same: a service that runs is not in the way. Raises `StoreError`."""
+        try:
+            await self.copy_open(target, threading.Event())
+        except (SQLAlchemyError, OSError, ValueError) as error:
+            raise StoreError(f"{self.name} cannot be read: {driver_message(error)}") from error
 
 
 def database_for(url: str) -> Sqlite | Postgres:

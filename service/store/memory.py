@@ -5,13 +5,20 @@ It satisfies the same protocol and the same tests as the SQL store.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import secrets
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path
+
+from anyio import to_thread
 
 from service.store.base import (
+    SECRET_BYTES,
     BookmarkRecord,
     Branch,
     EntryRecord,
+    JobRecord,
     PhraseRecord,
     SessionRecord,
     SnapshotRecord,
@@ -34,6 +41,10 @@ class MemoryStore:
         self._last_moment = 0
         self._unseen: set[str] = set()
         self._snapshots: dict[str, SnapshotRecord] = {}
+        self._used_at: dict[str, datetime] = {}
+        self._secrets: dict[str, bytes] = {}
+        self._jobs: dict[str, JobRecord] = {}
+        self._parts: dict[str, dict[str, bytes]] = {}
 
     async def open(self) -> None:
         """Do nothing."""
@@ -53,6 +64,7 @@ class MemoryStore:
         self._last_number += 1
         numbered = record.with_number(self._last_number)
         self._sessions[record.id] = numbered
+        self._used_at[record.id] = record.created_at
         self._entries[record.id] = {entry.sequence: entry for entry in entries}
         for entry in entries:
             self._name(record.id, entry)
@@ -101,6 +113,25 @@ class MemoryStore:
         for session_id, tick in ticks.items():
             if session_id in self._sessions:
                 self._sessions[session_id] = replace(self._sessions[session_id], tick=tick)
+        await self.touch(ticks.keys(), datetime.now(UTC))
+
+    async def touch(self, session_ids: Collection[str], at: datetime) -> None:
+        """See `Store.touch`."""
+        self._used_at |= {each: at for each in session_ids if each in self._sessions}
+
+    async def unused(self, since: datetime, limit: int, *, named: bool) -> Sequence[str]:
+        """See `Store.unused`."""
+        if all(at < since for at in self._used_at.values()):
+            return []
+        bookmarked = {each.session for each in self._moments.values()}
+        found = [
+            each.id
+            for each in self._sessions.values()
+            if each.id not in self._unseen
+            and self._used_at[each.id] < since
+            and (named or (each.name is None and each.id not in bookmarked))
+        ]
+        return sorted(found, key=self._used_at.__getitem__)[:limit]
 
     async def delete(self, session_id: str) -> bool:
         """See `Store.delete`."""
@@ -118,6 +149,7 @@ class MemoryStore:
         while session_id in self._unseen and session_id not in forked:
             self._unseen.remove(session_id)
             self._entries.pop(session_id)
+            self._used_at.pop(session_id)
             branch = self._sessions.pop(session_id).branch
             if branch is None:
                 return
@@ -192,3 +224,80 @@ class MemoryStore:
     async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
         """See `Store.phrases`."""
         return [each for key, each in sorted(self._phrases.items()) if each.owner == owner]
+
+    async def secret(self, name: str) -> bytes:
+        """See `Store.secret`."""
+        return self._secrets.setdefault(name, secrets.token_bytes(SECRET_BYTES))
+
+    async def backup(self, target: Path) -> None:
+        """See `Store.backup`."""
+        # Imported here: a service in memory has no use for SQLAlchemy otherwise.
+        from service.store import rows, tables
+        from service.store.backup import write_file
+
+        sessions = [
+            rows.session_to_row(each)
+            | {
+                "number": each.number,
+                "unseen": each.id in self._unseen,
+                "used_at": self._used_at[each.id].astimezone(UTC).replace(tzinfo=None),
+            }
+            for each in self._sessions.values()
+        ]
+        entries = [
+            rows.entry_to_row(of, entry) for of, own in self._entries.items() for entry in own.values()
+        ]
+        contents = [
+            (tables.SESSIONS, sessions),
+            (tables.ENTRIES, entries),
+            (tables.MOMENTS, [rows.bookmark_to_row(each) for each in self._moments.values()]),
+            (tables.SNAPSHOTS, [rows.snapshot_to_row(each) for each in self._snapshots.values()]),
+            (tables.PHRASES, [rows.phrase_to_row(each) for each in self._phrases.values()]),
+            (tables.IDEMPOTENCY, [rows.response_to_row(each) for each in self._answers.values()]),
+            (tables.SECRETS, [{"name": name, "value": value} for name, value in self._secrets.items()]),
+        ]
+        await to_thread.run_sync(write_file, target, contents)
+
+    async def create_job(self, record: JobRecord) -> JobRecord:
+        """See `Store.create_job`."""
+        if record.id in self._jobs:
+            raise StoreError(f"job {record.id} is there already")
+        last = max((job.number for job in self._jobs.values()), default=0)
+        self._jobs[record.id] = numbered = replace(record, number=last + 1)
+        self._parts[record.id] = {}
+        return numbered
+
+    async def update_job(self, record: JobRecord) -> None:
+        """See `Store.update_job`."""
+        if record.id in self._jobs:
+            self._jobs[record.id] = replace(record, number=self._jobs[record.id].number)
+
+    async def job(self, job_id: str) -> JobRecord | None:
+        """See `Store.job`."""
+        return self._jobs.get(job_id)
+
+    async def jobs(
+        self, limit: int, before: int | None = None, state: str | None = None
+    ) -> Sequence[JobRecord]:
+        """See `Store.jobs`."""
+        found = [
+            replace(job, result=None)
+            for job in self._jobs.values()
+            if (before is None or job.number < before) and state in (None, job.state)
+        ]
+        return sorted(found, key=lambda job: -job.number)[:limit]
+
+    async def delete_job(self, job_id: str) -> bool:
+        """See `Store.delete_job`."""
+        self._parts.pop(job_id, None)
+        return self._jobs.pop(job_id, None) is not None
+
+    async def save_job_part(self, job_id: str, key: str, body: bytes, done: int) -> None:
+        """See `Store.save_job_part`."""
+        if job_id in self._jobs:
+            self._jobs[job_id] = replace(self._jobs[job_id], done=done)
+            self._parts[job_id][key] = body
+
+    async def job_parts(self, job_id: str) -> Mapping[str, bytes]:
+        """See `Store.job_parts`."""
+        return dict(self._parts.get(job_id, {}))

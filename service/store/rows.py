@@ -8,7 +8,15 @@ from typing import Any
 from sqlalchemy import Row
 
 from service.resources import DEFAULT_LANGUAGE
-from service.store.base import Branch, EntryRecord, SessionRecord, SnapshotRecord, StoredResponse
+from service.store.base import (
+    BookmarkRecord,
+    Branch,
+    EntryRecord,
+    PhraseRecord,
+    SessionRecord,
+    SnapshotRecord,
+    StoredResponse,
+)
 
 
 def session_to_row(record: SessionRecord) -> dict[str, Any]:
@@ -21,10 +29,12 @@ def session_to_row(record: SessionRecord) -> dict[str, Any]:
         "standing": branch.standing,
         "instead": [dict(each) for each in branch.instead],
     }
+    made = record.created_at.astimezone(UTC).replace(tzinfo=None)
     return {
         "id": record.id,
         "name": record.name,
-        "created_at": record.created_at.astimezone(UTC).replace(tzinfo=None),
+        "created_at": made,
+        "used_at": made,
         "config": dict(record.config),
         "paused": record.paused,
         "tick": record.tick,
@@ -123,3 +133,25 @@ def bookmarks_to_rows(session_id: str, entry: EntryRecord) -> list[dict[str, Any
         {"session_id": session_id, "name": name, "sequence": entry.sequence, "tick": tick}
         for name, tick in entry.names.items()
     ]
+
+
+def bookmark_to_row(record: BookmarkRecord) -> dict[str, Any]:
+    """A bookmark as a row, with its number."""
+    return {
+        "number": record.number,
+        "session_id": record.session,
+        "name": record.name,
+        "sequence": record.sequence,
+        "tick": record.tick,
+    }
+
+
+def phrase_to_row(record: PhraseRecord) -> dict[str, Any]:
+    """A taught phrase as a row."""
+    return {
+        "owner": record.owner,
+        "language": record.language,
+        "key": record.key,
+        "phrase": record.phrase,
+        "meaning": [dict(action) for action in record.meaning],
+    }

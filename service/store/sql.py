@@ -12,14 +12,21 @@ well, the caller gets an error, and what may have been committed is deleted with
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Mapping, Sequence
+import secrets
+import sqlite3
+import threading
+from collections.abc import AsyncIterator, Collection, Mapping, Sequence
 from contextlib import asynccontextmanager
+from datetime import UTC, datetime
+from pathlib import Path
 
+from anyio import to_thread
 from sqlalchemy import Delete, bindparam, delete, func, insert, select, update
 from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine
 
 from service.store.base import (
+    SECRET_BYTES,
     BookmarkRecord,
     Branch,
     EntryRecord,
@@ -35,6 +42,7 @@ from service.store.rows import (
     bookmarks_to_rows,
     entry_from_row,
     entry_to_row,
+    phrase_to_row,
     response_to_row,
     session_from_row,
     session_to_row,
@@ -42,7 +50,9 @@ from service.store.rows import (
     snapshot_to_row,
 )
 from service.store.schema import migrate
-from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SESSIONS, SNAPSHOTS
+from service.store.sql_jobs import SqlJobs
+from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SECRETS, SESSIONS, SNAPSHOTS
+from service.whole_file import remove_partial
 
 _PAGE = 500
 """Entries in a page: making records of rows blocks the event loop."""
@@ -54,7 +64,7 @@ class _LostError(StoreError):
     """The server is gone or does not answer: the transaction may have been committed."""
 
 
-class SqlStore:
+class SqlStore(SqlJobs):
     """A `Store` in the database of a URL (`sqlite:///roadtalk.db`, `postgresql://host/name`)."""
 
     def __init__(self, url: str) -> None:
@@ -67,6 +77,9 @@ class SqlStore:
         """sessions deleted by this process, whose forks may still have their entries"""
         self._uncertain: list[Delete] = []
         """deletes rows that were not acknowledged and may have been committed"""
+        self._backups: set[asyncio.Task[None]] = set()
+        self._stopped = threading.Event()
+        """set when the store closes: a backup ends at its next step"""
 
     async def open(self) -> None:
         """Open the database, creating or upgrading its tables. Raises `StoreError`."""
@@ -83,12 +96,17 @@ class SqlStore:
             if isinstance(error, StoreError):
                 raise
             raise StoreError(f"{self._kind.name} cannot be opened: {driver_message(error)}") from error
+        if isinstance(self._kind, Sqlite):
+            await to_thread.run_sync(remove_partial, self._kind.path)
         self._engine = engine
+        self._stopped.clear()
 
     async def close(self) -> None:
         """Finish pending writes and close the database."""
-        if self._writer is not None:
-            await asyncio.wait([self._writer])
+        self._stopped.set()
+        under_way = [*self._backups, *([self._writer] if self._writer is not None else [])]
+        if under_way:
+            await asyncio.wait(under_way)
         if self._engine is not None:
             await self._engine.dispose()
             self._engine = None
@@ -176,9 +194,33 @@ class SqlStore:
         """See `Store.save_ticks`."""
         if not ticks:
             return
-        change = update(SESSIONS).where(SESSIONS.c.id == bindparam("of")).values(tick=bindparam("at"))
+        used = datetime.now(UTC).replace(tzinfo=None)
+        change = update(SESSIONS).where(SESSIONS.c.id == bindparam("of"))
+        change = change.values(tick=bindparam("at"), used_at=used)
         async with self._transaction() as connection:
             await connection.execute(change, [{"of": of, "at": at} for of, at in ticks.items()])
+
+    async def touch(self, session_ids: Collection[str], at: datetime) -> None:
+        """See `Store.touch`."""
+        if not session_ids:
+            return
+        change = update(SESSIONS).where(SESSIONS.c.id == bindparam("of")).values(used_at=_utc(at))
+        async with self._transaction() as connection:
+            await connection.execute(change, [{"of": each} for each in session_ids])
+
+    async def unused(self, since: datetime, limit: int, *, named: bool) -> Sequence[str]:
+        """See `Store.unused`."""
+        query = select(SESSIONS.c.id).where(~SESSIONS.c.unseen, SESSIONS.c.used_at < _utc(since))
+        if not named:
+            bookmarked = select(MOMENTS.c.number).where(MOMENTS.c.session_id == SESSIONS.c.id).exists()
+            query = query.where(SESSIONS.c.name.is_(None), ~bookmarked)
+        latest = select(func.max(SESSIONS.c.used_at))
+        async with self._transaction() as connection:
+            used = (await connection.execute(latest)).scalar_one()
+            if used is None or used < _utc(since):
+                return []
+            rows = await connection.execute(query.order_by(SESSIONS.c.used_at).limit(limit))
+            return list(rows.scalars())
 
     async def delete(self, session_id: str) -> bool:
         """See `Store.delete`."""
@@ -263,16 +305,9 @@ class SqlStore:
 
     async def save_phrase(self, record: PhraseRecord, answer: StoredResponse | None = None) -> None:
         """See `Store.save_phrase`."""
-        values = {
-            "owner": record.owner,
-            "language": record.language,
-            "key": record.key,
-            "phrase": record.phrase,
-            "meaning": [dict(action) for action in record.meaning],
-        }
         async with self._transaction() as connection:
             await connection.execute(_one_phrase(record.owner, record.language, record.key))
-            await connection.execute(insert(PHRASES), values)
+            await connection.execute(insert(PHRASES), phrase_to_row(record))
             if answer is not None:
                 await connection.execute(insert(IDEMPOTENCY), response_to_row(answer))
 
@@ -297,6 +332,28 @@ class SqlStore:
             )
             for row in rows
         ]
+
+    async def secret(self, name: str) -> bytes:
+        """See `Store.secret`."""
+        async with self._transaction() as connection:
+            found = select(SECRETS.c.value).where(SECRETS.c.name == name)
+            value = (await connection.execute(found)).scalar_one_or_none()
+            if value is None:
+                value = secrets.token_bytes(SECRET_BYTES)
+                await connection.execute(insert(SECRETS), {"name": name, "value": value})
+        return bytes(value)
+
+    async def backup(self, target: Path) -> None:
+        """See `Store.backup`."""
+        if self._engine is None:
+            raise StoreError("The database is not open")
+        copying = asyncio.ensure_future(self._kind.copy_open(target, self._stopped))
+        self._backups.add(copying)
+        copying.add_done_callback(self._backups.discard)
+        try:
+            await asyncio.shield(copying)
+        except (SQLAlchemyError, sqlite3.Error, OSError, ValueError) as error:
+            raise StoreError(f"no backup could be made: {driver_message(error)}") from error
 
     async def _write(self) -> None:
         """Commit pending entries, batch by batch, until there are none."""
@@ -360,6 +417,11 @@ class SqlStore:
         except ValueError as error:
             # Reading JSON: the file was damaged in a place that its own structure does not show.
             raise StoreError(f"what is kept cannot be read: {error}") from error
+
+
+def _utc(at: datetime) -> datetime:
+    """As times are stored."""
+    return at.astimezone(UTC).replace(tzinfo=None)
 
 
 def _one_phrase(owner: str, language: str, key: str) -> Delete:

@@ -19,7 +19,7 @@ from sqlalchemy import (
     false,
 )
 
-VERSION = 6
+VERSION = 8
 """Of the schema; the number of the last migration."""
 
 METADATA = MetaData()
@@ -40,6 +40,7 @@ SESSIONS = Table(
     Column("parent_tick", Integer),
     Column("standing", Text),
     Column("instead", JSON),
+    Column("used_at", DateTime, index=True, comment="UTC; when it was last used, to within an hour"),
     Column("unseen", Boolean, nullable=False, server_default=false(), comment="deleted, but for its forks"),
     sqlite_autoincrement=True,
 )
@@ -98,4 +99,35 @@ IDEMPOTENCY = Table(
     Column("status", Integer, nullable=False),
     Column("headers", JSON, nullable=False),
     Column("body", LargeBinary, nullable=False),
+)
+
+SECRETS = Table(
+    "secrets",
+    METADATA,
+    Column("name", String(64), primary_key=True),
+    Column("value", LargeBinary, nullable=False, comment="random, and never told"),
+)
+
+JOBS = Table(
+    "jobs",
+    METADATA,
+    Column("number", Integer, primary_key=True, autoincrement=True),
+    Column("id", String(64), nullable=False, unique=True),
+    Column("kind", String(16), nullable=False),
+    Column("state", String(16), nullable=False),
+    Column("created_at", DateTime, nullable=False, comment="UTC"),
+    Column("spec", JSON, nullable=False, comment="what is to be done"),
+    Column("done", Integer, nullable=False, comment="pieces of work that are finished"),
+    Column("total", Integer, nullable=False),
+    Column("result", JSON, comment="once it is done"),
+    Column("error", Text, comment="why it failed"),
+    sqlite_autoincrement=True,
+)
+
+JOB_PARTS = Table(
+    "job_parts",
+    METADATA,
+    Column("job_id", ForeignKey("jobs.id", ondelete="CASCADE"), primary_key=True),
+    Column("key", String(64), primary_key=True, comment="of the piece of work"),
+    Column("body", LargeBinary, nullable=False, comment="what it came to"),
 )

@@ -35,6 +35,8 @@ REQUESTS: list[dict[str, Any]] = [
     {"type": "actions", "id": "c", "actions": [{"do": "step", "ticks": 2}]},
     {"type": "actions", "id": "d", "actions": [{"do": "ask", "about": "status"}], "dry_run": True},
     {"type": "actions", "id": "e", "actions": [{"do": "show", "view": "plan"}]},
+    {"type": "command", "id": "f", "text": "add five potholes", "key": "once"},
+    {"type": "command", "id": "g", "text": "add five potholes", "key": "once"},
 ]
 
 

@@ -319,3 +319,60 @@ async def test_stopping_tells_readers_to_come_back(live: Live) -> None:
             await receive(stream)
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 1012
+
+
+COMMAND = {"type": "command", "text": "add five potholes", "key": "one"}
+
+
+async def answer_to(live: Live, **message: Any) -> Json:
+    """The answer to a message over a socket of its own."""
+    async with live.open() as stream:
+        await send(stream, **message)
+        while True:
+            heard = await receive(stream)
+            if heard.get("id") == message["id"]:
+                return heard
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        COMMAND,
+        COMMAND | {"dry_run": True},
+        COMMAND | {"text": "where are you?"},
+        {"type": "actions", "key": "one", "actions": [{"do": "add", "kind": "pothole", "count": 2}]},
+    ],
+)
+async def test_a_message_under_a_key_is_done_once_over_whichever_socket(live: Live, message: Json) -> None:
+    first = await answer_to(live, id="a", **message)
+    state = await live.state()
+    again = await answer_to(live, id="b", **message)
+    assert first["type"] == "result"
+    assert "replayed" not in first
+    assert again == first | {"id": "b", "replayed": True}
+    assert await live.state() == state
+
+
+async def test_a_key_of_another_message_is_refused_and_a_refusal_is_not_kept(live: Live) -> None:
+    refused = await answer_to(live, id="a", **COMMAND | {"text": "order pizza"})
+    assert refused["problem"]["type"] == "/problems/not-understood"
+    assert (await answer_to(live, id="b", **COMMAND))["type"] == "result"
+    other = await answer_to(live, id="c", **COMMAND | {"text": "add two cars"})
+    assert (other["type"], other["problem"]["type"]) == ("problem", "/problems/key-reused")
+
+
+async def test_two_of_one_key_at_once_are_one(live: Live) -> None:
+    before = (await live.state())["sequence"]
+    one, two = await asyncio.gather(answer_to(live, id="a", **COMMAND), answer_to(live, id="b", **COMMAND))
+    assert {one.get("replayed"), two.get("replayed")} == {None, True}
+    assert one["result"] == two["result"]
+    assert (await live.state())["sequence"] == before + 1
+
+
+async def test_a_bad_key_is_malformed(live: Live) -> None:
+    async with live.open() as stream:
+        await receive(stream)
+        await send(stream, id="a", **COMMAND | {"key": "two words"})
+        heard = await receive(stream)
+    assert heard["type"] == "error"
+    assert heard["problem"]["errors"][0]["field"] == "key"

@@ -9,7 +9,7 @@ import subprocess
 import sys
 from collections.abc import AsyncIterator
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import asyncpg
@@ -119,6 +119,24 @@ async def test_unknown_sessions_hold_nothing(store: Store) -> None:
     assert await store.get("nobody") is None
     assert list(await store.entries("nobody")) == []
     assert await store.delete("nobody") is False
+
+
+async def test_the_longest_unused_are_found_first_and_named_ones_apart(store: Store) -> None:
+    for each in ("a", "b", "d"):
+        await store.create(replace(record(each), name=None))
+    await store.create(record("c"))
+    await store.append("d", replace(entry(1), names={"here": 3}))
+    assert list(await store.unused(MOMENT + timedelta(days=9), 9, named=True)) == []  # none was used since
+    await store.create(record("live"))
+    await store.touch(["live", "nobody"], MOMENT + timedelta(days=9))
+    await store.touch(["a"], MOMENT + timedelta(days=1))
+    since = MOMENT + timedelta(days=5)
+    assert list(await store.unused(since, 9, named=False)) == ["b", "a"]
+    assert list(await store.unused(since, 1, named=False)) == ["b"]
+    assert set(await store.unused(since, 9, named=True)) == {"a", "b", "c", "d"}
+    await store.save_ticks({"b": 7})
+    await store.delete("a")
+    assert list(await store.unused(since, 9, named=False)) == []
 
 
 async def test_a_session_is_made_once(store: Store) -> None:

@@ -2,7 +2,7 @@
 
 The server sends `hello`, then `tick` and `changed` as they happen; a client that is too slow gets a full
 `state` that names what it missed. The client sends `command`, `actions` and `ping`, and gets each answer
-under its own `id`; with `subscribe` it gets pictures as binary messages
+under its own `id`, once for each `key`; with `subscribe` it gets pictures as binary messages
 (`service.http.realtime.frame_stream`), until `unsubscribe`. Nothing a client sends can do more here than over
 HTTP.
 
@@ -16,6 +16,7 @@ message too large (uvicorn), 1012 the service stops, 4401 no key and no ticket, 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from contextlib import suppress
 from json import JSONDecodeError
 from typing import Any, TypeAlias
@@ -36,15 +37,17 @@ from service.http.query_params import check_query
 from service.http.realtime import frame_stream
 from service.http.realtime.direct_write import direct_write_of
 from service.http.realtime.hello import hello
+from service.http.realtime.once import run_once
 from service.http.realtime.websocket_auth import authenticate
 from service.http.session_json import PREFIX
 from service.http.validation import field_problems, invalid
 from service.problems import Internal, Invalid, Malformed, ProblemError
 from service.security.guard import client_of
 from service.sessions.messages import state_message
+from service.sessions.preconditions import Preconditions
 from service.sessions.session import Session
 from service.sessions.subscribers import MissedTicks, SessionDeleted, Subscriber, add_event_id
-from service.sessions.utterance import Utterance
+from service.sessions.utterance import Outcome, Utterance
 from service.work.asker import CURRENT_ASKER, Asker
 
 _LOG = structlog.get_logger(__name__)
@@ -222,26 +225,41 @@ async def _answer(
             try:
                 context.guard.count_change(client_of(socket.scope))
                 with context.metrics.command("socket"):
-                    result = await _run(context, session, message)
+                    result, replayed = await _run(context, session, message)
             except ProblemError as problem:
                 return encoded({"type": "problem", "id": message.id, "problem": problem.document()})
             except Exception:
                 _LOG.exception("a message failed", session=session.id)
                 return encoded({"type": "problem", "id": message.id, "problem": Internal().document()})
-            return encoded({"type": "result", "id": message.id, "result": result})
+            again = {"replayed": True} if replayed else {}
+            return encoded({"type": "result", "id": message.id, "result": result} | again)
 
 
-async def _run(context: Context, session: Session, message: Command | Actions) -> dict[str, Any]:
-    heard = None
-    if isinstance(message, Command):
-        heard = await context.interpreter.interpret(
-            message.text, session, message.language, asks=not message.dry_run
+async def _run(context: Context, session: Session, message: Command | Actions) -> tuple[dict[str, Any], bool]:
+    """The result of a message, and whether it was given before. Raises a `ProblemError`."""
+
+    async def run(
+        preconditions: Callable[[Callable[[Outcome], dict[str, Any]]], Preconditions],
+    ) -> dict[str, Any]:
+        heard = None
+        if isinstance(message, Command):
+            heard = await context.interpreter.interpret(
+                message.text, session, message.language, asks=not message.dry_run
+            )
+            utterance = heard.utterance
+        else:
+            utterance = Utterance(actions=tuple(message.actions))
+
+        def told(outcome: Outcome) -> dict[str, Any]:
+            return result_json(outcome, heard, message.dry_run)
+
+        return told(
+            await context.interpreter.execute(
+                session, utterance, dry_run=message.dry_run, preconditions=preconditions(told)
+            )
         )
-        utterance = heard.utterance
-    else:
-        utterance = Utterance(actions=tuple(message.actions))
-    outcome = await context.interpreter.execute(session, utterance, dry_run=message.dry_run)
-    return result_json(outcome, heard, message.dry_run)
+
+    return await run_once(context.answers, session.id, message, run)
 
 
 def _error(problem: ProblemError) -> bytes:

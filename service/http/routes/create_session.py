@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Callable
+from dataclasses import asdict
 from typing import Annotated, Any
 
 from fastapi import Body, Request, Response
@@ -119,7 +120,7 @@ async def _create(
             parent, named.tick, name=body.name, paused=paused, answer=answer, field="link"
         )
     if recording is None:
-        config = await _config(here, body, language)
+        config = await described_config(here, body, language)
         try:
             return await here.manager.create(
                 body.name, config, paused=bool(body.paused), language=language, answer=answer
@@ -129,7 +130,7 @@ async def _create(
                 FieldProblem(f"config.{each.field}", refusals(language).problem(each))
                 for each in error.problems
             ) from error
-    config, recorded = _read_recording(here.settings, body, recording, language)
+    config, recorded = _read_recording(here, body, recording, language)
     return await here.manager.create(
         body.name or recording.name,
         config,
@@ -140,7 +141,7 @@ async def _create(
     )
 
 
-async def _config(here: Context, body: bodies.NewSession, language: str) -> Config:
+async def described_config(here: Context, body: bodies.NewSession, language: str) -> Config:
     """The configuration that was asked for, in figures and in words."""
     parts = dict(body.config or {})
     for name in ("seed", "planner"):
@@ -216,18 +217,12 @@ def _of_rules(recording: bodies.Recording) -> dict[str, Any]:
 
 
 def _read_recording(
-    settings: Settings, body: bodies.NewSession, recording: bodies.Recording, language: str
+    here: Context, body: bodies.NewSession, recording: bodies.Recording, language: str
 ) -> tuple[Config, Recording]:
     """What a recording says, checked as far as can be before it is replayed."""
     beside = [name for name in ("scenario", "config", "seed", "planner") if getattr(body, name) is not None]
     if beside:
         raise invalid(FieldProblem(name, "cannot stand beside a recording") for name in beside)
-    if recording.tick > settings.max_recording_ticks:
-        raise invalid([FieldProblem("recording.tick", f"is more than {settings.max_recording_ticks}")])
-    most = settings.max_recording_ticks
-    late = [number for number, entry in enumerate(recording.entries) if entry.tick > most]
-    if late:
-        raise invalid(FieldProblem(f"recording.entries.{each}.tick", f"is more than {most}") for each in late)
     try:
         config = saved_config(_of_rules(recording))
     except NewerRulesError as error:
@@ -238,7 +233,7 @@ def _read_recording(
             FieldProblem(f"recording.config.{each.field}", refusals(language).problem(each))
             for each in error.problems
         ) from error
-    _check_road_size(settings, config)
+    _check_road_size(here.settings, config)
     entries = [
         EntryRecord(
             sequence=entry.sequence,
@@ -249,4 +244,27 @@ def _read_recording(
         )
         for entry in recording.entries
     ]
-    return config, Recording(entries=entries, tick=recording.tick, digest=recording.digest)
+    own = _is_own(here, recording, config, entries, language)
+    if not own:
+        _check_length(here.settings.max_recording_ticks, recording)
+    return config, Recording(entries=entries, tick=recording.tick, digest=recording.digest, own=own)
+
+
+def _is_own(
+    here: Context, recording: bodies.Recording, config: Config, entries: list[EntryRecord], language: str
+) -> bool:
+    """Whether this service made the recording: it has then done all of its work before."""
+    seal = here.manager.seal
+    if seal is None or recording.seal is None:
+        return False
+    return seal.fits(recording.seal, asdict(config), entries, recording.tick, recording.digest, language)
+
+
+def _check_length(most: int, recording: bodies.Recording) -> None:
+    """Raises `Invalid` for a recording of more ticks than are replayed for others."""
+    message = f"is more than {most} (ROADTALK_MAX_RECORDING_TICKS), and this service did not make it"
+    if recording.tick > most:
+        raise invalid([FieldProblem("recording.tick", message)])
+    late = [number for number, entry in enumerate(recording.entries) if entry.tick > most]
+    if late:
+        raise invalid(FieldProblem(f"recording.entries.{each}.tick", message) for each in late)

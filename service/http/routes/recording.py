@@ -25,4 +25,4 @@ async def read_recording(session: TheSession, here: Here) -> Response:
     """Send it as `recording` to `POST /sessions`, here or elsewhere, and it replays to the same digest."""
     entries = await here.manager.entries(session)
     headers = {"Content-Disposition": f'attachment; filename="roadtalk-{session.id}.json"'}
-    return json_response(recording_json(session, entries), headers=headers)
+    return json_response(recording_json(session, entries, here.manager.seal), headers=headers)

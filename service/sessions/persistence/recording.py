@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 from service.problems import FieldProblem, Invalid, RecordingMismatch
@@ -17,6 +18,7 @@ from service.resources import DEFAULT_LANGUAGE
 from service.sessions.fork import renumber
 from service.sessions.persistence.replay import ReplayError, replay
 from service.sessions.persistence.replay_elsewhere import replay_log
+from service.sessions.persistence.seal import Seal
 from service.sessions.scheduler.offload import REPLAY_S, run_in_thread, uses_installed_planner
 from service.sessions.services import SessionServices
 from service.sessions.session import Session
@@ -33,8 +35,17 @@ class Recording:
     """What a recording holds beside its configuration."""
 
     entries: Sequence[EntryRecord]
+    """numbered from 1: a new session counts its own changes; in the file they keep their session's numbers"""
     tick: int
     digest: str
+    own: bool = False
+    """whether this service made it, so that it may be longer than others'"""
+
+    def __post_init__(self) -> None:
+        numbers = [entry.sequence for entry in self.entries]
+        # A fork may have parts of one change at several ticks. Whatever is not in order the replay refuses.
+        if all(one <= two for one, two in pairwise(numbers)):
+            object.__setattr__(self, "entries", renumber(self.entries))
 
 
 async def replay_recording(session: Session, recording: Recording, services: SessionServices) -> Session:
@@ -42,7 +53,7 @@ async def replay_recording(session: Session, recording: Recording, services: Ses
 
     Raises `Invalid`, `RecordingMismatch` for another digest, and what the executor of work raises.
     """
-    most = services.settings.max_recording_ticks
+    most = None if recording.own else services.settings.max_recording_ticks
     record, entries = session.record, recording.entries
     units = log_units(session.timeline.config, entries, recording.tick)
     services.work.check(units)
@@ -86,12 +97,12 @@ def _check(session: Session, recording: Recording) -> None:
         )
 
 
-def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str, Any]:
-    """The recording of a session up to its present tick."""
+def recording_json(
+    session: Session, entries: Sequence[EntryRecord], seal: Seal | None = None
+) -> dict[str, Any]:
+    """The recording of a session up to its present tick; sealed where it is longer than others may be."""
     kept = [entry for entry in entries if entry.sequence <= session.sequence]
-    if session.record.branch is not None:
-        kept = renumber(kept)
-    return {
+    made: dict[str, Any] = {
         "format": FORMAT,
         "version": VERSION,
         "rules": session.timeline.config.rules,
@@ -101,6 +112,9 @@ def recording_json(session: Session, entries: Sequence[EntryRecord]) -> dict[str
         "tick": session.timeline.tick,
         "digest": session.run.world.digest(),
     } | recorded_language(session.language)
+    if seal is not None and made["tick"] > session.services.settings.max_recording_ticks:
+        made["seal"] = seal.of(made["config"], kept, made["tick"], made["digest"], session.language)
+    return made
 
 
 def recorded_language(language: str) -> dict[str, str]:

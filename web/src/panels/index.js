@@ -27,6 +27,7 @@ import { createSchematic } from "./schematic.js";
 import { createSettings } from "./settingsLoader.js";
 import { createSessionMenu } from "../timeline/sessionMenu.js";
 import { createQuizLoader } from "../talk/quizLoader.js";
+import { createRules } from "./rules.js";
 import { createReader } from "../talk/speech.js";
 import { createStatus } from "./status.js";
 import { createTabs } from "./tabs.js";
@@ -66,6 +67,7 @@ export function createPanels(page) {
     createCaption(byId("caption")),
     createControls(byId("controls"), page),
     createLog(byId("log")),
+    createRules(byId("rules"), page),
     createTalk(byId("talk"), page),
     createCommand(byId("command"), page),
     createConnectionBadge(byId("connection"), page),
