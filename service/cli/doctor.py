@@ -70,11 +70,12 @@ def doctor() -> None:
         found = {"settings": Finding("fault", f"{name} is not valid: {wrong['msg']}", f"Correct {name}.")}
         _tell(found)
         raise typer.Exit(1) from None
-    found = []
+    faults = 0
     for name, check in CHECKS.items():
-        found.append(check(settings))
-        _tell({name: found[-1]})
-    if any(finding.verdict == "fault" for finding in found):
+        finding = check(settings)
+        _tell({name: finding})
+        faults += finding.verdict == "fault"
+    if faults:
         raise typer.Exit(1)
 
 

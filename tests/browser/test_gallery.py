@@ -1,4 +1,4 @@
-"""The gallery of roads: each has a picture and words, and opens as a session of its own by a press or by its address."""
+"""The gallery of roads: a picture and words for each; it opens by a press or by its address."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tour: five stops, each lets the person do the thing; it can be skipped. And the worst moments of a run."""
+"""The tour: five stops, each lets the person do the thing. And the worst moments of a run."""
 
 from __future__ import annotations
 

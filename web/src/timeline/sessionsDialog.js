@@ -120,7 +120,10 @@ function row(session, here, deleting, does) {
   const { id, tick, seed, created_at: created } = session;
   const name = nameOf(session);
   const when = dateText(new Date(created));
+  // A picture wakes no session that sleeps.
+  const picture = session.live ? html`<img class="row-thumb" src="${sessionPath(id)}/frame?format=webp" alt="" loading="lazy" width="48" height="48">` : html`<span class="row-thumb"></span>`;
   return html`<li class="row" data-session=${id}>
+    ${picture}
     <a class="row-name" href=${hashOf(id)} aria-current=${here ? "true" : nothing} @click=${does.close}>${name}${here ? html`<span class="row-here">${t("sessions.here")}</span>` : nothing}</a>
     <span class="row-note">${t("sessions.about", { tick, seed, when })}</span>
     <span class="row-do">${
