@@ -218,9 +218,9 @@ class MemoryStore:
         await self._add_response(answer)
         return self._phrases.pop((owner, language, key), None) is not None
 
-    async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
+    async def phrases(self, owner: str | None = None) -> Sequence[PhraseRecord]:
         """See `Store.phrases`."""
-        return [each for key, each in sorted(self._phrases.items()) if each.owner == owner]
+        return [each for _, each in sorted(self._phrases.items()) if owner in (None, each.owner)]
 
     async def secret(self, name: str) -> bytes:
         """See `Store.secret`."""
