@@ -13,6 +13,7 @@ from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from fastapi import FastAPI
 from starlette.routing import BaseRoute
 
+from service.evaluations.kinds import EvaluationJobs
 from service.http import errors, openapi
 from service.http.conditional.answers import KeptAnswers
 from service.http.deps import Context
@@ -36,6 +37,7 @@ from service.http.routes import (
     create_session,
     decisions,
     docs,
+    evaluations,
     events,
     forecast,
     forks,
@@ -47,6 +49,7 @@ from service.http.routes import (
     moments,
     pages,
     parse,
+    percept,
     questions,
     recording,
     regret,
@@ -62,6 +65,7 @@ from service.http.routes import language as language_route
 from service.interpreter.aliases import Aliases
 from service.interpreter.interpreter import Interpreter
 from service.interpreter.languages import Language, Languages
+from service.jobs import JobRunner
 from service.llm import LanguageModel, create_model
 from service.narration import Narrator
 from service.resources import DEFAULT_LANGUAGE
@@ -76,6 +80,7 @@ from service.settings import Settings
 from service.shutdown import STOP_S, within
 from service.store import Store, open_store
 from service.version import VERSION
+from sim.evaluate.executor import Executor
 from sim.plan.sandbox.client import without_waiting
 
 RESOURCES = (
@@ -106,8 +111,10 @@ RESOURCES = (
     changes,
     moments,
     forecast,
+    percept,
     regret,
     counterfactual,
+    evaluations,
     metrics,
     backup,
 )
@@ -134,6 +141,7 @@ def create_app(
     narrator: NarratorProtocol | None = None,
     clock: Clock | None = None,
     model: LanguageModel | None = None,
+    make_executor: Callable[[], Executor] | None = None,
 ) -> FastAPI:
     """The service. Whatever is not given is what the settings name, or the default.
 
@@ -146,7 +154,8 @@ def create_app(
     clock = clock or WheelClock(late=measured.lateness.observe)
     narrator = narrator or Narrator.load()
     model = model or create_model(settings)
-    manager = SessionManager(SessionServices(store, clock, narrator, settings))
+    jobs = JobRunner(store, [EvaluationJobs()], make_executor)
+    manager = SessionManager(SessionServices(store, clock, narrator, settings, jobs))
     languages = Languages.load() if language is None else Languages({DEFAULT_LANGUAGE: language})
     aliases = Aliases(store, languages)
     interpreter = Interpreter(
@@ -160,7 +169,7 @@ def create_app(
     )
     measured.read_from(manager)
     guard, answers = Guard(settings), KeptAnswers(store)
-    context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers)
+    context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers, jobs)
 
     app = FastAPI(
         separate_input_output_schemas=False,
@@ -203,6 +212,7 @@ def _lifespan(
 
     async def close(keepers: list[asyncio.Task[None]]) -> None:
         await asyncio.wait(keepers)
+        await context.jobs.close()
         await manager.close()
         if model is not None:
             await model.aclose()
@@ -214,6 +224,7 @@ def _lifespan(
         await manager.open()
         await aliases.open()
         await context.answers.open()
+        await context.jobs.open()
         context.clock.start()
         keepers = [
             asyncio.create_task(manager.evictor().run()),
@@ -226,6 +237,7 @@ def _lifespan(
             for keeper in keepers:
                 keeper.cancel()
             context.clock.stop()
+            manager.work.stop()
             await within(STOP_S, close(keepers))
 
     return lifespan

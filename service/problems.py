@@ -7,10 +7,12 @@
     ├── CrossSite                   403  a page of another site asks
     ├── NotFound                    404  no such route or resource
     │   ├── UnknownSession
-    │   └── UnknownDecision
+    │   ├── UnknownDecision
+    │   └── UnknownJob
     ├── MethodNotAllowed            405  the route exists, the method does not
     ├── Ambiguous                   409  could mean several things: `choices`
     ├── BackupUnderWay              409  one backup at a time
+    ├── NotFinished                 409  an evaluation has no report yet
     ├── PreconditionFailed          412  the session was changed since: `sequence`
     ├── ContentTooLarge             413  more bytes than are read
     ├── UnsupportedMediaType        415  the content type is not JSON
@@ -24,13 +26,16 @@
     │   ├── NotAQuestion                 understood, but `ask` only answers
     │   ├── NotTeachable                 a phrase that cannot be taught, or forgotten
     │   ├── IdempotencyKeyReused         an idempotency key that was another request's
+    │   ├── TooMuchWork                  it would cost more than a request may, or has
     │   └── RecordingMismatch            replayed to another digest than it says
     ├── TooManySessions             429  the limit of live sessions is reached: `Retry-After`
     ├── RateLimited                 429  a client asks too often: `Retry-After`
     ├── TooManyWrongKeys            429  a client tries keys: `Retry-After`
+    ├── TooMuchAtOnce               429  too many dear requests are under way: `Retry-After`
     ├── QuotaExceeded               429  a client has as much as it may have
     ├── Internal                    500  a defect here; says nothing of its inside
     ├── NotSaved                    503  the store did not take it; nothing was changed
+    ├── Stopped                     503  work was ended before it was done; nothing was changed
     ├── BackupFailed                503  no backup was made
     └── NotRestorable               503  what is kept of the session cannot be replayed
 
@@ -129,6 +134,15 @@ class UnknownSession(NotFound):
         )
 
 
+class UnknownJob(NotFound):
+    """No evaluation has this id."""
+
+    slug, title = "unknown-evaluation", "No such evaluation"
+
+    def __init__(self) -> None:
+        super().__init__("No evaluation has this id. GET /api/v1/evaluations lists those there are.")
+
+
 class UnknownDecision(NotFound):
     """No decision was taken at this tick."""
 
@@ -154,6 +168,17 @@ class BackupUnderWay(ProblemError):
 
     def __init__(self) -> None:
         super().__init__("Somebody else is being sent a backup. One is made at a time; try again later.")
+
+
+class NotFinished(ProblemError):
+    """An evaluation has no result: it is not done yet, or never will be."""
+
+    status, slug, title = 409, "not-finished", "Not finished"
+
+    def __init__(self, state: str) -> None:
+        super().__init__(
+            f"This evaluation is {state}: it has no report.", headers={"Retry-After": "2"}, state=state
+        )
 
 
 class PreconditionFailed(ProblemError):
@@ -255,6 +280,12 @@ class IdempotencyKeyReused(Invalid):
         )
 
 
+class TooMuchWork(Invalid):
+    """A request that would cost, or has cost, more than is spent on one."""
+
+    slug, title = "too-much-work", "Too much work"
+
+
 class RecordingMismatch(Invalid):
     """A recording whose replay leads to another digest than it names."""
 
@@ -299,6 +330,18 @@ class TooManyWrongKeys(ProblemError):
         )
 
 
+class TooMuchAtOnce(ProblemError):
+    """A client has as many dear requests under way as it may have, or the queue of all is full."""
+
+    status, slug, title = 429, "too-much-at-once", "Too much at once"
+
+    def __init__(self, why: str, wait_s: int) -> None:
+        """`why`: a sentence; `wait_s`: seconds until there may be room."""
+        super().__init__(
+            f"{why} Nothing was done. Try again in {wait_s} s.", headers={"Retry-After": str(wait_s)}
+        )
+
+
 class QuotaExceeded(ProblemError):
     """A client has as many sessions, or as much road, as its quota allows."""
 
@@ -324,6 +367,15 @@ class NotSaved(ProblemError):
         super().__init__(
             "The change could not be saved, so it was not made. Try again; the disk may be full."
         )
+
+
+class Stopped(ProblemError):
+    """The service stops, or whoever asked has gone, before the work was done; it left nothing behind."""
+
+    status, slug, title = 503, "stopped", "Stopped before it was done"
+
+    def __init__(self) -> None:
+        super().__init__("The work was stopped before it was done. Nothing was changed. Ask again.")
 
 
 class BackupFailed(ProblemError):
@@ -356,9 +408,11 @@ KINDS: tuple[type[ProblemError], ...] = (
     NotFound,
     UnknownSession,
     UnknownDecision,
+    UnknownJob,
     MethodNotAllowed,
     Ambiguous,
     BackupUnderWay,
+    NotFinished,
     PreconditionFailed,
     ContentTooLarge,
     UnsupportedMediaType,
@@ -372,13 +426,16 @@ KINDS: tuple[type[ProblemError], ...] = (
     NotAQuestion,
     NotTeachable,
     IdempotencyKeyReused,
+    TooMuchWork,
     RecordingMismatch,
     TooManySessions,
     RateLimited,
     TooManyWrongKeys,
+    TooMuchAtOnce,
     QuotaExceeded,
     Internal,
     NotSaved,
+    Stopped,
     BackupFailed,
     NotRestorable,
 )

@@ -59,6 +59,28 @@ class Settings(BaseSettings):
     max_step_ticks: int = Field(
         default=1_000, ge=1, le=10_000, description="Maximum number of ticks that one call to `step` runs."
     )
+    max_work: int = Field(
+        default=1_000_000_000,
+        ge=1_000_000,
+        description="Maximum work of one request, in units (cells of road × ticks × planner).",
+    )
+    max_work_s: float = Field(
+        default=120.0, gt=0, le=3_600, description="Time limit of one request's work, in seconds."
+    )
+    max_work_memory_mb: int = Field(
+        default=1_024, ge=256, description="Memory limit of a worker process, in megabytes."
+    )
+    max_client_work: int = Field(
+        default=8,
+        ge=1,
+        description="Maximum number of dear requests of one client, running or waiting.",
+    )
+    work_processes: int | None = Field(
+        default=None,
+        ge=1,
+        le=64,
+        description="Number of worker processes for dear requests. Unset: one less than there are cores.",
+    )
     log_events: int = Field(
         default=400, ge=10, description="Number of log events that a live session keeps in memory."
     )

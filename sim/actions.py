@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from annotated_types import Ge, Gt, Le
+from annotated_types import Ge, Gt, Le, Len
 
 from sim.planner_names import PlannerName
 from sim.sensor_names import SensorName
@@ -326,6 +326,145 @@ class Prefer:
     __pydantic_config__ = _STRICT
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pause:
+    """Stop the clock."""
+
+    do: Literal["pause"] = "pause"
+
+    __pydantic_config__ = _STRICT
+
+
+Fact = Literal[
+    "crash", "arrival", "stuck", "episode", "every", "after", "tick", "row", "lane", "near", "count"
+]
+"""What a condition is about. Events (they happen in a tick): `crash`, `arrival`, `stuck`, and `episode`, a road that
+begins. Times: `every`, `after` (since the rule was made) and `tick` (of the session). The rest are so or not so:
+`row`, `lane`, `near` (the distance to the nearest thing) and `count` (how many things there are)."""
+
+_KEYS: dict[str, tuple[frozenset[str], ...]] = {
+    **dict.fromkeys(("crash", "arrival", "stuck", "episode"), (frozenset(),)),
+    **dict.fromkeys(("every", "after"), (frozenset(("ticks",)), frozenset(("seconds",)))),
+    "tick": (frozenset(("tick",)),),
+    "row": (frozenset(("row",)),),
+    "lane": (frozenset(("lane",)),),
+    "near": tuple(
+        frozenset(keys)
+        for bound in ("closer_than_m", "within_m", "farther_than_m")
+        for keys in ((bound,), (bound, "kind"))
+    ),
+    "count": (
+        frozenset(("kind", "at_least")),
+        frozenset(("kind", "at_most")),
+        frozenset(("kind", "at_least", "at_most")),
+    ),
+}
+"""What a condition about each fact names, in each of the ways it can be said."""
+_CONDITION_KEYS = sorted({key for ways in _KEYS.values() for way in ways for key in way})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Condition:
+    """What a rule waits for: one fact, with its figures."""
+
+    fact: Fact
+    ticks: Annotated[int, Ge(1), Le(100_000)] | None = None
+    seconds: Annotated[float, Gt(0), Le(100_000)] | None = None
+    tick: Annotated[int, Ge(0)] | None = None
+    """a tick of the session"""
+    row: Row | None = None
+    """reached: the first ego is there or nearer to the goal"""
+    lane: Literal["left", "middle", "right"] | Lane | None = None
+    kind: PlaceableKind | None = None
+    closer_than_m: Annotated[float, Gt(0)] | None = None
+    within_m: Annotated[float, Gt(0)] | None = None
+    farther_than_m: Annotated[float, Gt(0)] | None = None
+    at_least: Amount | None = None
+    at_most: Amount | None = None
+
+    __pydantic_config__ = _STRICT
+
+    def __post_init__(self) -> None:
+        named = frozenset(key for key in _CONDITION_KEYS if getattr(self, key) is not None)
+        ways = _KEYS.get(self.fact, ())
+        if named not in ways:
+            told = " or ".join(" and ".join(sorted(each)) or "nothing more" for each in ways)
+            raise ValueError(f"a condition about {self.fact} names {told}")
+        if self.at_least is not None and self.at_most is not None and self.at_least > self.at_most:
+            raise ValueError("'at_least' is more than 'at_most'")
+
+
+RuleAction = (
+    Add
+    | Remove
+    | SetCount
+    | MoveThings
+    | Swap
+    | Replace
+    | Copy
+    | Scenario
+    | Reset
+    | SetMode
+    | Drive
+    | Set
+    | Adjust
+    | Prefer
+    | Pause
+)
+"""What a rule may do: change the world, or stop the clock."""
+
+MAX_RULE_ACTIONS = 10
+"""How many actions one rule may hold."""
+MAX_FIRINGS = 1_000
+"""How often one rule fires at most; then it is switched off."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trigger:
+    """A rule: whenever the condition comes to hold, these actions are done at the end of that tick.
+
+    The condition of a storyboard event in ASAM OpenSCENARIO, on its rising edge.
+    """
+
+    do: Literal["trigger"] = "trigger"
+    when: Condition
+    then: Annotated[tuple[RuleAction, ...], Len(1, MAX_RULE_ACTIONS)]
+    until: Condition | None = None
+    """when the rule ends"""
+    times: Annotated[int, Ge(1), Le(MAX_FIRINGS)] | None = None
+    """how often it fires before it ends"""
+
+    __pydantic_config__ = _STRICT
+
+    def __post_init__(self) -> None:
+        if self.until is not None and self.until.fact == "every":
+            raise ValueError("a rule cannot end every so often")
+        if any(getattr(action, "parameter", None) == "playback_speed" for action in self.then):
+            raise ValueError("a rule changes no playback speed")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cancel:
+    """Switch rules off: one by its number or place, all, the last, or those that do such an action to such things."""
+
+    do: Literal["cancel"] = "cancel"
+    which: Annotated[int, Ge(1)] | Literal["all", "last"] | None = None
+    place: Annotated[int, Ge(1)] | None = None
+    """which of the list: 1 for the first that stands"""
+    doing: str | None = None
+    """the `do` of an action that the rules have"""
+    kind: PlaceableKind | None = None
+    """the kind of that action's things"""
+
+    __pydantic_config__ = _STRICT
+
+    def __post_init__(self) -> None:
+        if [self.which, self.place, self.doing].count(None) != 2:
+            raise ValueError("say exactly one of 'which', 'place' and 'doing'")
+        if self.kind is not None and self.doing is None:
+            raise ValueError("'kind' belongs to 'doing'")
+
+
 Rearranging = MoveThings | Swap | Replace | Copy
 """Actions on things that are on the road already."""
 
@@ -344,4 +483,6 @@ WorldAction = (
     | Set
     | Adjust
     | Prefer
+    | Trigger
+    | Cancel
 )

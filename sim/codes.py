@@ -27,14 +27,14 @@ PROBLEMS: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
         "too_many": ("room",),
         "no_drivable_road": ("draws",),
         "is_given_to_reset": (),
-        "weather_not_available": ("value",),
-        "time_of_day_not_available": ("value",),
-        "sensor_not_available": ("value",),
         "planner_not_available": ("value",),
         "second_vehicle_not_available": (),
+        "has_no_way": (),
+        "has_no_start": (),
     }
 )
-"""Codes of a `sim.config.Problem`. Those that end in `_not_available` are of scenarios."""
+"""Codes of a `sim.config.Problem`. Those that end in `_not_available` are of scenarios; `has_no_way` and
+`has_no_start` are of the road of an evaluation."""
 
 EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
     {
@@ -71,6 +71,11 @@ EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
         "goal_after_end": ("none-there", ()),
         "goal_among_egos": ("not-available", ()),
         "goal_same_planner": ("out-of-range", ()),
+        "too_many_triggers": ("too-many", ("most",)),
+        "no_such_trigger": ("none-there", ("number",)),
+        "no_triggers": ("none-there", ()),
+        "no_trigger_does": ("none-there", ()),
+        "crowded": ("does-not-fit", ("percent",)),
     }
 )
 """Codes of a `sim.session.errors.EditError`: the category of each, and its facts.

@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Any, Final, Literal, get_args
 
 from sim import planner_names, sensor_names
-from sim.actions import MAX_THINGS, Layout, Preference, RoadType, Traffic
+from sim.actions import MAX_THINGS, Layout, Preference, RoadType, TimeOfDay, Traffic, Weather
 from sim.codes import PROBLEMS, check_facts, plain_text
 from sim.randomness import MAX_SEED
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR, Behaviour
@@ -70,6 +70,7 @@ RANGES: Final[dict[str, tuple[float, float]]] = {
     "attentive": (0.0, 1.0),
     "reset_delay_s": (0.0, 60.0),
     "safety_buffer": (0, 3),
+    "detection_sensitivity": (0.05, 0.95),
     "rules": (1, RULES),
     "seed": (0, MAX_SEED),
 }
@@ -83,6 +84,8 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "road": get_args(RoadType),
     "layout": get_args(Layout),
     "traffic": get_args(Traffic),
+    "weather": get_args(Weather),
+    "time_of_day": get_args(TimeOfDay),
     "dynamics": tuple(DYNAMICS),
     "behaviour": tuple(BEHAVIOURS),
 }
@@ -90,7 +93,6 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
 
 PROMISED: Final[dict[str, tuple[str, ...]]] = {
     "planner": planner_names.PROMISED,
-    "sensor": sensor_names.PROMISED,
     "dynamics": ("continuous",),
 }
 """Values that people may ask for and this version has not."""
@@ -172,6 +174,12 @@ class Config(Derived):
     """cells around a mover that cost something to be in, for planners that weigh costs"""
     sensor: str = sensor_names.DEFAULT_SENSOR
     """what the ego sees with (`sim.perceive`)"""
+    weather: Weather = "clear"
+    """what sensors see through (`sim.perceive.parameters`), and the friction of `sim.hazard_advice`"""
+    time_of_day: TimeOfDay = "day"
+    """how much light a camera has"""
+    detection_sensitivity: float = 0.5
+    """things are heeded that are believed to be there with a likelihood of at least 1 − sensitivity"""
     dynamics: str = DEFAULT_DYNAMICS
     """how autonomous vehicles move (`sim.rules.dynamics`)"""
     behaviour: str = DEFAULT_BEHAVIOUR

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 from sim.types import Cell, Move
 
@@ -27,6 +28,12 @@ class EventType(StrEnum):
     """an edit has opened a way on a road that had none"""
     DISABLED = "disabled"
     """a pothole was placed under a mover, which cannot leave it"""
+    TRIGGERED = "triggered"
+    """a rule was done"""
+    TRIGGER_FAILED = "trigger_failed"
+    """a rule could not be done, and nothing of it was"""
+    TRIGGER_ENDED = "trigger_ended"
+    """a rule ended by itself"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +48,13 @@ class Event:
     move: Move | None = None
     how: str | None = None
     """CRASHED: `hit`, `swap` or `cross`; HELD_BACK: what blocks the move (`StepVerdict`); PLANNER_FAILED: the
-    fault; STUCK: `limit` or `repetition`; NO_WAY: `late` if too few ticks are left"""
+    fault; STUCK: `limit` or `repetition`; NO_WAY: `late` if too few ticks are left; TRIGGER_ENDED: `done`, `limit`
+    (fired too often) or `failed` (could not be done too often)"""
     ego: str = "av-1"
     """the ego it happened to; the first ego if it concerns all of them"""
+    rule: int | None = None
+    """the number of the rule, for those of rules"""
+    done: tuple[Any, ...] = ()
+    """TRIGGERED: what the rule did, as `sim.session.applied.Applied` and `Pause`"""
+    error: Exception | None = None
+    """TRIGGER_FAILED: the `EditError`"""

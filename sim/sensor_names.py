@@ -4,23 +4,18 @@ from __future__ import annotations
 
 from typing import Final, Literal, get_args
 
-BuiltIn = Literal["perfect"]
-"""Names of the sensors that come with the project (`sim.perceive`)."""
-Promised = Literal["camera", "lidar", "radar", "fusion"]
-"""Names that people may say and this version has not."""
-SensorName = Literal[BuiltIn, Promised]
-"""What may be said in an action."""
+SensorName = Literal["perfect", "camera", "lidar", "radar", "fusion"]
+"""Names of the sensors that come with the project (`sim.perceive`), which may be said in an action."""
 
 DEFAULT_SENSOR: Final = "perfect"
-BUILT_IN: Final[tuple[str, ...]] = get_args(BuiltIn)
-PROMISED: Final[tuple[str, ...]] = get_args(Promised)
+BUILT_IN: Final[tuple[str, ...]] = get_args(SensorName)
 
 _registered: list[str] = []
 
 
 def claim(name: str) -> None:
-    """Take a name for a sensor. Raises `ValueError` if it is taken or promised."""
-    if name in _registered or name in PROMISED:
+    """Take a name for a sensor. Raises `ValueError` if it is taken."""
+    if name in _registered:
         raise ValueError(f"there is already a sensor called {name!r}")
     _registered.append(name)
 

@@ -18,6 +18,7 @@ from sim.metrics import Metrics
 from sim.perceive import NO_BELIEF, Belief, Percept
 from sim.plan import Decision
 from sim.repetition import NOTHING_KEPT, Watch
+from sim.triggers import NO_TRIGGERS, Triggers
 from sim.types import Mode, Move, ego_id
 from sim.validation import validate_world
 from sim.world import World
@@ -39,6 +40,8 @@ class SimState:
     """by id, in the order of `World.avs`; a vehicle of the world that is left out is parked"""
     edits: int = 0
     """changes made so far; numbers the stream random places are drawn from"""
+    triggers: Triggers = NO_TRIGGERS
+    """the rules that stand; they outlast episodes and scenarios"""
 
     @staticmethod
     def start(config: Config, world: World | None = None, planners: Sequence[str | None] = ()) -> SimState:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import sqrt
+from math import ceil, exp, lgamma, log, sqrt
 from statistics import fmean, stdev
 from typing import Final
 
@@ -27,3 +27,53 @@ def mean(values: Sequence[float]) -> tuple[float, float]:
     """Computes a mean and half its 95 % interval (normal); the half is 0 for fewer than two values."""
     half = Z * stdev(values) / sqrt(len(values)) if len(values) > 1 else 0.0
     return fmean(values), half
+
+
+def mcnemar(only_first: int, only_second: int) -> float:
+    """Computes the exact two-sided p-value of McNemar's test.
+
+    `only_first` and `only_second` count the pairs in which one of the two succeeded and the other did not.
+    The test is that of a fair coin (binomial): under the null hypothesis either is as likely.
+
+    Source: McNemar, "Note on the sampling error of the difference between correlated proportions or
+    percentages", Psychometrika, 1947; the exact form is that of Liddell, 1983.
+    """
+    pairs, fewer = only_first + only_second, min(only_first, only_second)
+    if 2 * fewer >= pairs:
+        return 1.0
+    # From the largest term downwards, each from the one before, until the rest is below rounding.
+    term = exp(lgamma(pairs + 1) - lgamma(fewer + 1) - lgamma(pairs - fewer + 1) - pairs * log(2))
+    total = 0.0
+    for successes in range(fewer, -1, -1):
+        total += term
+        if term <= total * 1e-18:
+            break
+        term *= successes / (pairs - successes + 1)
+    return min(1.0, 2 * total)
+
+
+def holm(p_values: Sequence[float]) -> list[float]:
+    """Adjusts p-values for several tests (Holm, Scandinavian Journal of Statistics, 1979)."""
+    order = sorted(range(len(p_values)), key=lambda index: p_values[index])
+    adjusted, largest = [0.0] * len(p_values), 0.0
+    for place, index in enumerate(order):
+        largest = max(largest, min(1.0, (len(p_values) - place) * p_values[index]))
+        adjusted[index] = largest
+    return adjusted
+
+
+Z_POWER: Final = 0.8416212
+"""The 80 % quantile of the normal distribution: the power that sample sizes are advised for."""
+
+
+def pairs_needed(discordant: float, difference: float) -> int | None:
+    """The pairs with which McNemar's test would find a difference of success rates, with 80 % power at 5 %.
+
+    `discordant`: the share of pairs in which only one succeeds; None where there is no difference to find.
+    Source: Connor, "Sample size for testing differences in proportions for the paired-sample design",
+    Biometrics, 1987.
+    """
+    if difference == 0 or discordant <= 0:
+        return None
+    spread = sqrt(max(0.0, discordant - difference * difference))
+    return ceil(((Z * sqrt(discordant) + Z_POWER * spread) / difference) ** 2)

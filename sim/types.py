@@ -89,6 +89,8 @@ class KindSpec:
     """whether a mover in the same cell is disabled for as long"""
     probability: str | None = None
     """the field of `Config` that furnishes a road where no exact count is given"""
+    occludes: bool = False
+    """whether its body hides what is behind it from sensors (`sim.perceive.occlusion`)"""
 
 
 KINDS: Final[Mapping[Kind, KindSpec]] = MappingProxyType(
@@ -106,6 +108,7 @@ KINDS: Final[Mapping[Kind, KindSpec]] = MappingProxyType(
             plural="barriers",
             signs=("#",),
             sprite="barrier",
+            occludes=True,
         ),
         Kind.VEHICLE: KindSpec(
             size=Size.percent(66, 32),
@@ -114,6 +117,7 @@ KINDS: Final[Mapping[Kind, KindSpec]] = MappingProxyType(
             sprite="car",
             period=1,
             probability="spawn_probability",
+            occludes=True,
         ),
         Kind.PEDESTRIAN: KindSpec(
             size=Size.percent(30, 32),
@@ -127,6 +131,7 @@ KINDS: Final[Mapping[Kind, KindSpec]] = MappingProxyType(
             plural="avs",
             signs=("A",),
             sprite="ego",
+            occludes=True,
         ),
     }
 )

@@ -4,7 +4,8 @@
 
 A dictionary is a text file with a word on each line, such as those of SCOWL (http://wordlist.aspell.net,
 free to use; Debian package `wamerican-small`). "Hopes" is one letter from "holes", and no typo. The
-plural and the singular of a word of ours are left out: they mean the same. Run it again after the vocabulary has grown.
+plural and the singular of a word of ours are left out: they mean the same. Run it again after the
+vocabulary has grown.
 """
 
 from __future__ import annotations

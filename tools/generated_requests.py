@@ -54,8 +54,14 @@ REFUSED: dict[tuple[str, str], tuple[tuple[int, ...], tuple[str, ...]]] = {
     ("GET", f"{OWN}/timeline"): ((422,), (PAST,)),
     ("GET", f"{OWN}/moments"): ((422,), (PAST,)),
     ("GET", f"{OWN}/forecast"): ((422,), (PAST,)),
+    ("GET", f"{OWN}/percept"): ((422,), (PAST,)),
     ("GET", f"{OWN}/regret"): ((422,), (PAST,)),
     ("GET", f"{OWN}/film"): ((422,), (PAST, "422: more frames than are made; no video library")),
+    ("POST", "/api/v1/evaluations"): (
+        (409, 422, 429),
+        (WORDS, "422: roads that cannot be, or parts that cannot stand beside one another", "429: quota"),
+    ),
+    ("GET", "/api/v1/evaluations/{evaluation_id}/report"): ((409,), ("409: there is no result yet",)),
     ("POST", "/api/v1/parse"): ((409, 422), (WORDS,)),
     ("POST", "/api/v1/advice"): ((409, 422), (WORDS, "422: said in the text and in figures")),
 }

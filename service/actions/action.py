@@ -26,9 +26,9 @@ from service.actions.questions import (
     DetailName,
     HistoryName,
     MetricName,
+    MomentName,
     OtherName,
     OutlookName,
-    MomentName,
     PlannersName,
     QuestionName,
     QuestionTraits,
@@ -51,7 +51,7 @@ from service.actions.steering import (
     Ticks,
     Undo,
 )
-from sim.actions import Parameter, PlaceableKind, Where, WorldAction
+from sim.actions import Cancel, Parameter, PlaceableKind, Trigger, Where, WorldAction
 from sim.planner_names import PlannerName
 from sim.types import Move
 
@@ -127,7 +127,9 @@ class Ask:
             self._check_what(self.what)
         if sum(each is not None for each in (self.tick, self.ticks, self.seconds)) > 1:
             raise ValueError("say one of 'tick', 'ticks' and 'seconds'")
-        _refuse_kinds("it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget))
+        _refuse_kinds(
+            "it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget, Trigger, Cancel)
+        )
 
     def _check_what(self, what: str) -> None:
         """Raise `ValueError` unless `what` belongs to the question and all is named that it needs."""

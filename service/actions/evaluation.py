@@ -41,6 +41,8 @@ class Evaluate:
     runs: Annotated[int, Ge(1), Le(1_000_000)] | None = None
     planners: tuple[PlannerName, ...] | None = None
     scenario: ScenarioParts | None = None
+    road: Literal["this"] | None = None
+    """the session's own road from this moment on, in place of roads that are drawn"""
 
     __pydantic_config__ = STRICT
 

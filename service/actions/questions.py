@@ -32,9 +32,13 @@ QuestionName = Literal[
     "blame",
     "planners",
     "quiz",
+    "rules",
 ]
 OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how", "way", "wait"]
-"""What of the time ahead is asked about; `way`: whether any way leads to the goal, `wait`: how long it stays."""
+"""What of the time ahead is asked about.
+
+`way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is.
+"""
 BlameName = Literal["fault", "too_late", "foreseen", "avoidable"]
 """What about a crash is asked."""
 PlannersName = Literal["here", "compare", "character", "own"]
@@ -158,6 +162,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
     "planners": QuestionTraits(("what", "planners", "planner", "tick"), ("what",), runs_episodes=True),
     "quiz": QuestionTraits(runs_episodes=True),
+    "rules": QuestionTraits(),
 }
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {

@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 
 from annotated_types import Ge, Le, MaxLen, MinLen
 
+from sim.actions import Pause as Pause
+
 STRICT = {"extra": "forbid"}
 """Pydantic's setting for every action: unknown keys are refused."""
 
@@ -16,15 +18,6 @@ Steps = Annotated[int, Ge(1), Le(10_000)] | Literal["all"]
 
 Name = Annotated[str, MinLen(1), MaxLen(80)]
 ViewName = Literal["road", "schematic", "occupancy", "plan", "log", "potholes", "sensors", "path", "metrics"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Pause:
-    """Stop the clock."""
-
-    do: Literal["pause"] = "pause"
-
-    __pydantic_config__ = STRICT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -34,6 +34,7 @@ from service.actions.steering import (
 from sim.actions import (
     Add,
     Adjust,
+    Cancel,
     Copy,
     Drive,
     MoveThings,
@@ -46,6 +47,7 @@ from sim.actions import (
     SetCount,
     SetMode,
     Swap,
+    Trigger,
     WorldAction,
 )
 
@@ -168,6 +170,8 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     Set: _world(ModelUse.UNCONFIRMED, amendable=True),
     Adjust: _world(ModelUse.UNCONFIRMED, amendable=True, additive=True),
     Prefer: _world(ModelUse.UNCONFIRMED, amendable=True),
+    Trigger: _world(ModelUse.NEVER, what_if=WhatIf.INVALID),
+    Cancel: _world(ModelUse.NEVER, tried=True, what_if=WhatIf.INVALID),
     Goal: ActionTraits(
         undo_step=True,
         searches=True,
@@ -224,7 +228,8 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         what_if=WhatIf.NO_EFFECT,
     ),
     Evaluate: ActionTraits(
-        offered=False,
+        changes_session=False,
+        searches=True,
         separates_settings=True,
         model=ModelUse.CONFIRMED,
         what_if=WhatIf.NO_EFFECT,

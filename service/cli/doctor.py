@@ -49,7 +49,7 @@ NEEDED = (
 )
 """Modules without which the service does not start or draw, as they are imported."""
 
-CHROMIUMS = ("chromium", "chromium-browser", "google-chrome")
+CHROMIUMS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 STYLES = {"ok": "green", "fault": "bold red", "note": "yellow"}
 
 
@@ -70,9 +70,11 @@ def doctor() -> None:
         found = {"settings": Finding("fault", f"{name} is not valid: {wrong['msg']}", f"Correct {name}.")}
         _tell(found)
         raise typer.Exit(1) from None
-    found = {name: check(settings) for name, check in CHECKS.items()}
-    _tell(found)
-    if any(finding.verdict == "fault" for finding in found.values()):
+    found = []
+    for name, check in CHECKS.items():
+        found.append(check(settings))
+        _tell({name: found[-1]})
+    if any(finding.verdict == "fault" for finding in found):
         raise typer.Exit(1)
 
 
@@ -202,6 +204,10 @@ CHECKS: dict[str, Callable[[Settings], Finding]] = {
 }
 
 
+NAMES = max(map(len, CHECKS))
+"""The width of their names."""
+
+
 def _lock(path: Path) -> int | None:
     """Take the write lock and let it go; also reads the file, which shows damage at its head.
 
@@ -228,9 +234,16 @@ def _version() -> str:
 
 
 def _tell(found: dict[str, Finding]) -> None:
+    """Print findings; each as soon as it is there, in columns that do not depend on the others."""
+    if not sys.stdout.isatty():
+        for name, finding in found.items():
+            typer.echo(f"{finding.verdict:<5}  {name:<{NAMES}}  {plain(finding.text)}")
+            if finding.advice:
+                typer.echo(f"{'':<{NAMES + 9}}→ {finding.advice}")
+        return
     shown = Table(box=None, show_header=False, pad_edge=False)
-    shown.add_column(no_wrap=True)
-    shown.add_column(no_wrap=True)
+    shown.add_column(no_wrap=True, width=max(map(len, STYLES)))
+    shown.add_column(no_wrap=True, width=NAMES)
     shown.add_column()
     for name, finding in found.items():
         advice = f"\n→ {finding.advice}" if finding.advice else ""

@@ -29,6 +29,10 @@ COMMANDS: Final = {
         "service.cli.watch",
         "Print what a session does as it does it, until Ctrl-C or until it is deleted.",
     ),
+    "evaluate": (
+        "service.cli.evaluate",
+        "Run many episodes with one or several planners and report what came of them.",
+    ),
     "replay": (
         "service.cli.replay",
         "Replay a recording and compare digests. Exits with 1 when they differ.",
@@ -36,6 +40,7 @@ COMMANDS: Final = {
     "sessions": ("service.cli.sessions", "List sessions, newest first."),
     "backup": ("service.cli.backup", "Write all that the service keeps to one file, while it runs."),
     "restore": ("service.cli.restore", "Put a backup in the place of the database."),
+    "planners": ("service.cli.planners", "List the planners, each with a line about it."),
     "doctor": (
         "service.cli.doctor",
         "Check that the service can run here. Exits with 1 when something is wrong.",
@@ -51,6 +56,18 @@ COMMANDS: Final = {
     "check-planner": ("service.cli.check_planner", "Try a planner's promises on many roads."),
 }
 """Each command's module, whose function of the same name it is, and the first paragraph of its help."""
+
+
+SLOW: Final = {
+    "doctor": "Looking at this machine …",
+    "quiz": "Making roads to ask about …",
+    "replay": "Loading the simulator …",
+    "language-eval": "Loading the grammar …",
+    "language-fuzz": "Loading the grammar …",
+    "check-planner": "Loading the simulator …",
+    "play": "Opening the window …",
+}
+"""What a command says at once, on standard error, where its own first line takes long to come."""
 
 
 class _Commands(TyperGroup):
@@ -69,6 +86,8 @@ class _Commands(TyperGroup):
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         """A command to be run, with all its options."""
         name, command, rest = super().resolve_command(ctx, args)
+        if name in SLOW and not ctx.resilient_parsing and "--help" not in rest:
+            typer.echo(SLOW[name], err=True)
         return name, command if name is None or command is None else load_command(name), rest
 
 
@@ -87,7 +106,7 @@ cli = typer.Typer(
     cls=_Commands,
     help="An autonomous vehicle on a road of obstacles and potholes, run in plain words.",
     no_args_is_help=True,
-    add_completion=False,
+    add_completion=True,
     pretty_exceptions_enable=False,
 )
 

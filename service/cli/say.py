@@ -41,7 +41,7 @@ def say(
     Where several things may be meant, they are listed with numbers; the
     next thing said may answer: "2", "the second one", "ten", or "never
     mind". Of several lines, those before the one that is refused are done,
-    and none after it.
+    and none after it. The session's id is printed on standard error.
 
     Example: roadtalk say "add five potholes"
     """
@@ -52,6 +52,8 @@ def say(
                 _told(heard, sentence, language)
             else:
                 typer.echo(plain(_said(heard, sentence, language, asking=text != FROM_INPUT)))
+        if not as_json:
+            typer.echo(plain(f"(session {heard.id})"), err=True)
 
 
 def _sentences(text: str) -> Iterator[str]:

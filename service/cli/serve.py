@@ -32,6 +32,9 @@ from service.warm_up import warm_up
 STOP_S = 1
 """How long a stopping service waits for requests under way."""
 
+SWITCH_S = 0.001
+"""How long a thread that computes keeps the interpreter from the event loop."""
+
 
 def _default(setting: str) -> str:
     """A setting's default, for help: the option itself has none, so that the environment is heard."""
@@ -83,6 +86,7 @@ def serve(
         with garbage.no_collection():
             store = open_store(settings.database)
             config = server_config(create_app(settings, store=store), settings)
+        sys.setswitchinterval(SWITCH_S)
         with asyncio.Runner(loop_factory=config.get_loop_factory()) as runner:
             runner.run(_serve(config, store, listener, deadline))
     except (StoreError, LanguageDataError, MissingExtraError, PromptError) as error:
@@ -175,9 +179,11 @@ class _Server(uvicorn.Server):
         self._warming: asyncio.Task[None] | None = None
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """End the streams of events, which would be waited for, then stop."""
+        """End the streams of events and the work in processes, which would be waited for, then stop."""
         self._deadline.begin()
-        self.config.app.state.context.event_streams.stop()  # type: ignore[union-attr]
+        context = self.config.app.state.context  # type: ignore[union-attr]
+        context.event_streams.stop()
+        context.manager.work.stop()
         await super().shutdown(sockets)
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich import box
-from rich.table import Table
 
-from service.cli.terminal import URL, ApiKey, AsJson, Url, console, echo_json, plain, service_at
-from service.client import SessionSummary
+from service.cli.tables import local_time, print_table
+from service.cli.terminal import URL, ApiKey, AsJson, Url, echo_json, plain, service_at
+
+if TYPE_CHECKING:
+    from service.client import SessionSummary
 
 
 def sessions(
@@ -31,32 +32,30 @@ def sessions(
     if not page.items:
         typer.echo('There are no sessions yet. Make one with: roadtalk say "where are you?"')
         return
-    shown = console()
-    shown.print(table(page.items))
+    print_table(*table(page.items), right=FIGURES)
     if page.more:
-        shown.print(f"There are more; this is the newest {len(page)}.")
+        typer.echo(f"There are more; this is the newest {len(page)}.")
 
 
-def table(items: tuple[SessionSummary, ...]) -> Table:
-    """A row for each session."""
-    made = Table(box=box.SIMPLE)
-    for name, whole in (("id", True), ("name", False), ("made (UTC)", True), ("live", True)):
-        made.add_column(name, no_wrap=whole)
-    made.add_column("tick", justify="right")
-    made.add_column("seed", justify="right")
+FIGURES = (4, 5)
+"""Columns of numbers."""
+
+
+def table(items: tuple[SessionSummary, ...]) -> tuple[list[str], list[list[str]]]:
+    """The head, and a row for each session."""
+    head = ["id", "name", "made", "live", "tick", "seed"]
     forked = any(item.parent for item in items)
-    if forked:
-        made.add_column("from", no_wrap=True)
+    rows = []
     for item in items:
-        cells = [
+        row = [
             plain(item.id),
             plain(item.name or ""),
-            item.created_at[:16].replace("T", " "),
+            local_time(item.created_at),
             "yes" if item.live else "no",
             str(item.tick),
             str(item.seed),
         ]
         if forked:
-            cells.append(plain(f"{item.parent.id}, tick {item.parent.tick}" if item.parent else ""))
-        made.add_row(*cells)
-    return made
+            row.append(plain(f"{item.parent.id}, tick {item.parent.tick}" if item.parent else ""))
+        rows.append(row)
+    return [*head, "from"] if forked else head, rows

@@ -6,15 +6,17 @@ import json
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
-from rich.console import Console
 
-from service.client import DEFAULT_URL, Client, RoadtalkError, Session
+if TYPE_CHECKING:
+    from rich.console import Console
 
-PIPED_COLUMNS = 160
-"""Width of tables that are not shown on a screen, so that ids stay whole."""
+    from service.client import Client, Session
+
+PIPED_COLUMNS = 100
+"""Width of what is laid out in lines where no screen tells its own."""
 
 Url = Annotated[str, typer.Option(help="Where the service is.")]
 ApiKey = Annotated[
@@ -29,7 +31,8 @@ AsJson = Annotated[
     bool, typer.Option("--json", help="Print what the service answered: a JSON object on each line.")
 ]
 
-URL = DEFAULT_URL
+URL = "http://127.0.0.1:8000"
+"""The client's own default, which is not imported for it: most of a command's start is that import."""
 
 
 def fail(message: str) -> NoReturn:
@@ -41,6 +44,8 @@ def fail(message: str) -> NoReturn:
 @contextmanager
 def service_at(url: str, api_key: str | None) -> Iterator[Client]:
     """A client; what it raises ends the command with one clear line."""
+    from service.client import Client, RoadtalkError
+
     try:
         with Client(url, api_key=api_key) as client:
             yield client
@@ -63,6 +68,8 @@ def echo_json(value: Mapping[str, Any]) -> None:
 
 def console() -> Console:
     """Standard output; nothing said by others is read as mark-up."""
+    from rich.console import Console
+
     width = None if sys.stdout.isatty() else PIPED_COLUMNS
     return Console(width=width, markup=False, highlight=False, emoji=False)
 

@@ -59,6 +59,9 @@ def lines(message: Message, *, quiet: bool = False) -> Iterator[str]:
             again = "Back with" if message.resumed else "Watching"
             name = message.session.name or message.session.id
             yield f"{again} {name}: tick {message.state.tick}, {standing}"
+            if message.state.paused:
+                how = f"roadtalk say resume --session {message.session.id}"
+                yield f"Nothing happens while it is paused. To go on: {how}"
         case Tick():
             if message.decision is not None and not quiet:
                 yield f"{message.tick:>6}  {message.decision.move:<14} {message.narration or ''}".rstrip()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncGenerator, AsyncIterator
+from collections.abc import AsyncGenerator, AsyncIterator, Sequence
 from contextlib import aclosing
 from pathlib import Path
 from types import TracebackType
@@ -152,6 +152,44 @@ class AsyncClient:
             except httpx.TransportError as error:
                 raise unreachable(self.url, error) from error
         return backup
+
+    async def evaluate(
+        self,
+        text: str | None = None,
+        *,
+        runs: int | None = None,
+        planners: Sequence[str] | None = None,
+        scenario: str | None = None,
+        config: Json | None = None,
+        session: str | None = None,
+        road: str | None = None,
+        seed: int | None = None,
+        language: str | None = None,
+    ) -> answers.Evaluation:
+        """Starts many episodes: `evaluate("run 500 episodes with A*")`, or in figures.
+
+        They are run in the background; `evaluation` says how far they are, and `report` what came of them.
+        """
+        call = endpoints.create_evaluation(
+            text, runs, planners, scenario, config, session, road, seed, language
+        )
+        return await self._send(call)
+
+    async def evaluations(self, *, after: str | None = None, limit: int = 50) -> answers.EvaluationPage:
+        """Evaluations, newest first, a page of them."""
+        return await self._send(endpoints.list_evaluations(after, limit))
+
+    async def evaluation(self, evaluation_id: str) -> answers.Evaluation:
+        """How far an evaluation is, and what came of it."""
+        return await self._send(endpoints.read_evaluation(evaluation_id))
+
+    async def cancel_evaluation(self, evaluation_id: str) -> None:
+        """Cancels an evaluation; one that has ended is forgotten."""
+        await self._send(endpoints.delete_evaluation(evaluation_id))
+
+    async def report(self, evaluation_id: str, *, format: str = "markdown") -> str:
+        """The report of an evaluation: `html`, `markdown`, `json`, or `csv` with a line for each episode."""
+        return await self._send(endpoints.read_report(evaluation_id, format))
 
     def session(self, session_id: str) -> AsyncSession:
         """The session of this id; nothing is asked before it is used."""

@@ -128,6 +128,10 @@ class AsyncSession(AsyncInNotebook):
         """What the vehicle is about to do, and where movers are expected to be."""
         return await self._client._send(endpoints.read_forecast(self.id, ticks, at_tick))
 
+    async def percept(self, *, at_tick: int | None = None) -> answers.Sensed:
+        """What the vehicle sees, how sure it is of it, and what it makes up or misses."""
+        return await self._client._send(endpoints.read_percept(self.id, at_tick))
+
     async def regret(self, first: int = 0, *, limit: int = 60) -> answers.Judged:
         """Each decision against the best that could have been done at its moment."""
         return await self._client._send(endpoints.read_regret(self.id, first, limit))

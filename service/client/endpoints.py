@@ -52,6 +52,11 @@ def _session_path(session: str, part: str = "") -> str:
     return f"{PREFIX}/sessions/{quote(session, safe='')}{part}"
 
 
+def _evaluation_path(evaluation: str) -> str:
+    """The path of an evaluation."""
+    return f"{PREFIX}/evaluations/{quote(evaluation, safe='')}"
+
+
 def read_health() -> Call[answers.Health]:
     """Whether the service is alive, and what it holds."""
     return Call("GET", "/healthz", _json(answers.Health))
@@ -238,6 +243,11 @@ def read_forecast(session: str, ticks: int, tick: int | None) -> Call[answers.Ex
     return Call("GET", _session_path(session, "/forecast"), _json(answers.Expected), params=params)
 
 
+def read_percept(session: str, tick: int | None) -> Call[answers.Sensed]:
+    """What the vehicle sees, beside what is there."""
+    return Call("GET", _session_path(session, "/percept"), _json(answers.Sensed), params={"tick": tick})
+
+
 def read_regret(session: str, first: int, limit: int) -> Call[answers.Judged]:
     """What decisions cost against the best."""
     params = {"from": first, "limit": limit}
@@ -251,6 +261,55 @@ def run_counterfactual(
     body = _without_none(at_tick=at_tick, move=move, actions=list(actions) or None, ticks=ticks)
     path = _session_path(session, "/counterfactual")
     return Call("POST", path, _json(answers.Counterfactual), body, key=new_key())
+
+
+def create_evaluation(
+    text: str | None,
+    runs: int | None,
+    planners: Sequence[str] | None,
+    scenario: str | None,
+    config: Json | None,
+    session: str | None,
+    road: str | None,
+    seed: int | None,
+    language: str | None,
+) -> Call[answers.Evaluation]:
+    """Starts many episodes in the background."""
+    body = _without_none(
+        text=text,
+        runs=runs,
+        planners=None if planners is None else [*planners],
+        scenario=scenario,
+        config=config,
+        session=session,
+        road=road,
+        seed=seed,
+        language=language,
+    )
+    path = f"{PREFIX}/evaluations"
+    return Call("POST", path, _json(answers.Evaluation), body, said="text", key=new_key())
+
+
+def list_evaluations(after: str | None, limit: int) -> Call[answers.EvaluationPage]:
+    """A page of evaluations."""
+    params = {"after": after, "limit": limit}
+    return Call("GET", f"{PREFIX}/evaluations", _json(answers.EvaluationPage), params=params)
+
+
+def read_evaluation(evaluation: str) -> Call[answers.Evaluation]:
+    """An evaluation as it stands."""
+    return Call("GET", _evaluation_path(evaluation), _json(answers.Evaluation))
+
+
+def delete_evaluation(evaluation: str) -> Call[None]:
+    """Cancels an evaluation, or forgets one that has ended."""
+    return Call("DELETE", _evaluation_path(evaluation), lambda _: None, key=new_key())
+
+
+def read_report(evaluation: str, form: str) -> Call[str]:
+    """The report of an evaluation, as text."""
+    path = f"{_evaluation_path(evaluation)}/report"
+    return Call("GET", path, lambda response: response.text, params={"format": form})
 
 
 def create_ticket() -> Call[answers.Ticket]:

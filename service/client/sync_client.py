@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
 from types import TracebackType
@@ -153,6 +153,44 @@ class Client:
             except httpx.TransportError as error:
                 raise unreachable(self.url, error) from error
         return backup
+
+    def evaluate(
+        self,
+        text: str | None = None,
+        *,
+        runs: int | None = None,
+        planners: Sequence[str] | None = None,
+        scenario: str | None = None,
+        config: Json | None = None,
+        session: str | None = None,
+        road: str | None = None,
+        seed: int | None = None,
+        language: str | None = None,
+    ) -> answers.Evaluation:
+        """Starts many episodes: `evaluate("run 500 episodes with A*")`, or in figures.
+
+        They are run in the background; `evaluation` says how far they are, and `report` what came of them.
+        """
+        call = endpoints.create_evaluation(
+            text, runs, planners, scenario, config, session, road, seed, language
+        )
+        return self._send(call)
+
+    def evaluations(self, *, after: str | None = None, limit: int = 50) -> answers.EvaluationPage:
+        """Evaluations, newest first, a page of them."""
+        return self._send(endpoints.list_evaluations(after, limit))
+
+    def evaluation(self, evaluation_id: str) -> answers.Evaluation:
+        """How far an evaluation is, and what came of it."""
+        return self._send(endpoints.read_evaluation(evaluation_id))
+
+    def cancel_evaluation(self, evaluation_id: str) -> None:
+        """Cancels an evaluation; one that has ended is forgotten."""
+        self._send(endpoints.delete_evaluation(evaluation_id))
+
+    def report(self, evaluation_id: str, *, format: str = "markdown") -> str:
+        """The report of an evaluation: `html`, `markdown`, `json`, or `csv` with a line for each episode."""
+        return self._send(endpoints.read_report(evaluation_id, format))
 
     def session(self, session_id: str) -> Session:
         """The session of this id; nothing is asked before it is used."""

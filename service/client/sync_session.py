@@ -127,6 +127,10 @@ class Session(InNotebook):
         """What the vehicle is about to do, and where movers are expected to be."""
         return self._client._send(endpoints.read_forecast(self.id, ticks, at_tick))
 
+    def percept(self, *, at_tick: int | None = None) -> answers.Sensed:
+        """What the vehicle sees, how sure it is of it, and what it makes up or misses."""
+        return self._client._send(endpoints.read_percept(self.id, at_tick))
+
     def regret(self, first: int = 0, *, limit: int = 60) -> answers.Judged:
         """Each decision against the best that could have been done at its moment."""
         return self._client._send(endpoints.read_regret(self.id, first, limit))

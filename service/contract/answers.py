@@ -15,9 +15,11 @@ from service.contract.command import (
 )
 from service.contract.counterfactual import Counterfactual, End, PlayedTick, Side
 from service.contract.decision import BlockedMove, BriefDecision, Decision, DecisionPage, Option
+from service.contract.evaluation import Evaluation, EvaluationPage, EvaluationSummary, StartedEvaluation
 from service.contract.forecast import Expected, ExpectedTick, Judged, JudgedDecision
 from service.contract.health import Health, Lateness, Ready
 from service.contract.language import IntentGuide, LanguageGuide, Preview, Saying, TaughtPhrase
+from service.contract.percept import Sensed, SensedThing
 from service.contract.problem import FieldProblemModel, ProblemDocument
 from service.contract.session import (
     Link,
@@ -45,11 +47,13 @@ from service.contract.timeline import (
 
 __all__ = [
     "Advice", "AdviceOption", "AdvicePhysics", "AdviceQuantity", "Answer", "BlockedMove", "BriefDecision",
-    "Change", "ChoiceModel", "CommandResult", "ConfigChanged", "Correction", "Counterfactual", "CrashCause",
-    "Decision", "DecisionPage", "End", "EventPage", "Expected", "ExpectedTick", "FieldProblemModel", "Hazard",
-    "Health", "IntentGuide", "Judged", "JudgedDecision", "LanguageGuide", "Lateness", "Link", "LogEvent",
-    "Metrics", "Moment", "MomentPage", "Moments", "MoveCounts", "Mover", "Option", "Parent", "Parsed",
-    "PlayedTick", "Preview", "ProblemDocument", "Ready", "RoadChange", "RoadChanges", "SavedMoment",
-    "SavedMoments", "Saying", "Session", "SessionMoment", "SessionPage", "SessionSummary", "Side", "State",
-    "StepResult", "TaughtPhrase", "Ticket", "TimelineMark", "TimelinePage", "Vehicle",
+    "Change", "ChoiceModel", "CommandResult", "ConfigChanged", "Correction", "Counterfactual",
+    "CrashCause", "Decision", "DecisionPage", "End", "Evaluation", "EvaluationPage", "EvaluationSummary",
+    "EventPage", "Expected", "ExpectedTick", "FieldProblemModel", "Hazard", "Health", "IntentGuide",
+    "Judged", "JudgedDecision", "LanguageGuide", "Lateness", "Link", "LogEvent", "Metrics", "Moment",
+    "MomentPage", "Moments", "MoveCounts", "Mover", "Option", "Parent", "Parsed", "PlayedTick", "Preview",
+    "ProblemDocument", "Ready", "RoadChange", "RoadChanges", "SavedMoment", "SavedMoments", "Saying",
+    "Sensed", "SensedThing", "Session", "SessionMoment", "SessionPage", "SessionSummary", "Side",
+    "StartedEvaluation", "State", "StepResult", "TaughtPhrase", "Ticket", "TimelineMark", "TimelinePage",
+    "Vehicle",
 ]  # fmt: skip

@@ -11,6 +11,7 @@ from pydantic import ConfigDict, Field
 from service.actions import Action
 from service.contract import notebook_html as html
 from service.contract.decision import Decision
+from service.contract.evaluation import StartedEvaluation
 from service.contract.model import Answered, DocumentedAs, Model, Tick
 from service.contract.state import State
 
@@ -83,6 +84,8 @@ class CommandResult(Answered):
     sequence: int
     corrections: tuple[Correction, ...]
     dry_run: bool
+    evaluations: tuple[StartedEvaluation, ...] = ()
+    """Evaluations that it started, which go on in the background."""
 
     def _repr_html_(self) -> str:
         """The reply and what differs, for notebooks."""

@@ -116,6 +116,34 @@ class NewFork(Sent):
     paused: bool | None = Field(None, description="Default: as this session is.")
 
 
+class NewEvaluation(Sent):
+    """Many episodes to run, in words or in figures."""
+
+    text: StorableText | None = Field(
+        None,
+        description="As a sentence, such as `run 500 episodes with A*`. Beside it: session, seed, language.",
+    )
+    runs: int | None = Field(None, description="Episodes of each planner, up to 1,000,000. Default: 100.")
+    planners: list[str] | None = Field(
+        None,
+        min_length=1,
+        max_length=6,
+        description="Compared on the same roads, each with the first. Default: the road's.",
+    )
+    scenario: StorableText | None = Field(None, description="A sentence that describes the roads.")
+    config: ConfigParts | None = Field(None, description="What the roads are drawn from.")
+    session: str | None = Field(
+        None, max_length=64, description="Roads as in this session; alone or with a text, runs, planners."
+    )
+    road: Literal["this"] | None = Field(
+        None, description="The session's own road from this moment on, in place of roads that are drawn."
+    )
+    seed: int | None = Field(
+        None, ge=0, le=2**53 - 1, description="Of the first episode. Default: the session's, else 0."
+    )
+    language: str | None = Field(None, max_length=16, description=f"Of the text and the report. {_LANGUAGE}")
+
+
 class RewindTo(Sent):
     """Where to go back to."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -23,6 +23,7 @@ from service.contract.model import (
     Tick,
 )
 from service.sessions.scheduler.playback_speed import FASTEST, SLOWEST
+from sim.actions import TimeOfDay, Weather
 
 PlaybackSpeed = Annotated[
     float | Literal["max"],
@@ -101,6 +102,22 @@ class Metrics(Model):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Rule(Model):
+    """A rule that stands: "every 10 ticks add a car"."""
+
+    number: int
+    """By which it is cancelled; never used again in the session."""
+    text: str
+    """The rule in the language of the session."""
+    since: Tick
+    """The tick at which it was made."""
+    fired: int
+    """How often it has been done."""
+    action: dict[str, Any]
+    """The action that made it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class State(Answered):
     """The world at a tick."""
 
@@ -120,6 +137,10 @@ class State(Answered):
     playback_speed: PlaybackSpeed
     mode: ModeName
     planner: str
+    sensor: str
+    """What the egos see with."""
+    weather: Annotated[str, DocumentedAs(Weather)]
+    time_of_day: Annotated[str, DocumentedAs(TimeOfDay)]
     vehicles: tuple[Vehicle, ...]
     """The egos, in order of their ids."""
     movers: tuple[Mover, ...]
@@ -133,6 +154,8 @@ class State(Answered):
     """How many changes can be undone, one after the other."""
     redo: int
     """How many undone changes can be made again."""
+    rules: tuple[Rule, ...] = ()
+    """The rules that stand, in the order of their numbers."""
 
     def things(self) -> list[Vehicle | Mover | Hazard]:
         """Everything on the road, the egos last."""

@@ -232,6 +232,7 @@ def _rest() -> Iterator[dict[str, Any]]:
         yield {"do": "style", "style": style}
     yield {"do": "ask", "about": "styles"}
     yield {"do": "ask", "about": "quiz"}
+    yield from _rules()
     yield {"do": "advise", "hazard": "pothole", "distance_m": 20, "speed_kmh": 50}
     yield {"do": "save", "name": "monday demo"}
     yield {"do": "load", "name": "monday demo"}
@@ -240,3 +241,37 @@ def _rest() -> Iterator[dict[str, Any]]:
     meaning = [{"do": "set", "parameter": "traffic", "value": "heavy"}]
     yield {"do": "teach", "phrase": "rush hour", "meaning": meaning}
     yield {"do": "forget", "phrase": "rush hour"}
+
+
+def _rules() -> Iterator[dict[str, Any]]:
+    """Rules with each kind of condition, and what switches them off."""
+    car = [{"do": "add", "kind": "vehicle", "count": 1}]
+    conditions: list[dict[str, Any]] = [
+        *({"fact": fact} for fact in ("crash", "arrival", "stuck", "episode")),
+        {"fact": "after", "ticks": 20},
+        {"fact": "after", "seconds": 2.5},
+        {"fact": "tick", "tick": 50},
+        {"fact": "row", "row": 10},
+        {"fact": "lane", "lane": 3},
+        {"fact": "lane", "lane": "left"},
+        *({"fact": "near", bound: 10.0} for bound in ("closer_than_m", "within_m", "farther_than_m")),
+        {"fact": "near", "kind": "pedestrian", "closer_than_m": 12.5},
+        {"fact": "near", "kind": "vehicle", "within_m": 10.0},
+        {"fact": "near", "kind": "barrier", "farther_than_m": 30.0},
+        {"fact": "count", "kind": "vehicle", "at_least": 20},
+        {"fact": "count", "kind": "pothole", "at_most": 3},
+        {"fact": "count", "kind": "barrier", "at_least": 4, "at_most": 4},
+    ]
+    for condition in conditions:
+        yield {"do": "trigger", "when": condition, "then": [{"do": "pause"}]}
+        yield {"do": "trigger", "when": {"fact": "every", "ticks": 5}, "then": car, "until": condition}
+    yield {"do": "trigger", "when": {"fact": "every", "seconds": 2.0}, "then": car, "times": 3}
+    yield {"do": "trigger", "when": {"fact": "crash"}, "then": [{"do": "reset"}, *car], "times": 1}
+    yield {"do": "ask", "about": "rules"}
+    for which in ("all", "last", 2):
+        yield {"do": "cancel", "which": which}
+    yield {"do": "cancel", "place": 1}
+    for doing in ("add", "pause", "reset"):
+        yield {"do": "cancel", "doing": doing}
+    for kind in ("pothole", "vehicle", "barrier", "pedestrian"):
+        yield {"do": "cancel", "doing": "add", "kind": kind}

@@ -14,6 +14,7 @@ from service.grammar.frames import Frame, FrameError, read_frames
 from service.grammar.lexicon import Lexicon
 from service.grammar.numbers import NumberWords
 from service.grammar.patterns import PatternError, read_macros
+from service.grammar.rule_words import RuleWords
 from service.grammar.tokens import Contractions
 from service.grammar.typos import TypoRules
 from service.yaml_files import YamlError, read_yaml
@@ -66,6 +67,8 @@ class LanguageData:
     number_words: frozenset[str]
     answers: Answers
     """how questions are answered, and what begins a sentence that leans on the one before"""
+    rules: RuleWords
+    """how rules are said"""
     nouns: Mapping[str, str]
     """for each concept that may only stand with a value of its own kind ("weather"), that kind"""
     free: frozenset[str]
@@ -87,6 +90,7 @@ class Documents:
     typos: Mapping[str, Any]
     sentences: Mapping[str, Any]
     answers: Mapping[str, Any]
+    rules: Mapping[str, Any]
     frames: Mapping[str, Any]
     """`sets`, `agree`, and the `frames` of all intents together"""
 
@@ -123,13 +127,14 @@ def _documents(folder: Path) -> Documents:
             if name in frames["frames"]:
                 raise FrameError(f"frame {name} is there twice")
             frames["frames"][name] = content
-    said_back, answers = folder / "sentences.yaml", folder / "answers.yaml"
+    said_back, answers, rules = (folder / f"{name}.yaml" for name in ("sentences", "answers", "rules"))
     return Documents(
         words=words,
         numbers=read_yaml(folder / "numbers.yaml"),
         typos=read_yaml(folder / "typos.yaml"),
         sentences=read_yaml(said_back) if said_back.is_file() else {},
         answers=read_yaml(answers) if answers.is_file() else {},
+        rules=read_yaml(rules) if rules.is_file() else {},
         frames=frames,
     )
 
@@ -171,6 +176,7 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         vague=int(words["vague"]),
         number_words=numbers.words(),
         answers=answers,
+        rules=RuleWords.from_data(documents.rules),
         nouns=documents.frames["agree"],
         free=free,
         idle=idle(frames, free),

@@ -34,6 +34,7 @@ from service.grammar.parser import Reading, content_of
 from service.grammar.paths import SEPARATOR
 from service.grammar.references import add_known
 from service.grammar.repairs import ALWAYS, DROPPED, Repair
+from service.grammar.rules import RuleReader
 from service.grammar.sentences import Sentences
 from service.grammar.small_talk import small_talk
 from service.grammar.span_patterns import REPAIR
@@ -58,6 +59,7 @@ class Language:
         self._scanner = Scanner(data.lexicon, data.numbers)
         self.frames = Frames(data.frames, data.parameters)
         self.sentences = Sentences(data.sentences)
+        self._rules = RuleReader(self, data.rules)
         self._cache = ParseCache(self._parse_uncached)
 
     @classmethod
@@ -87,9 +89,10 @@ class Language:
     def _parse_uncached(self, text: str, topic: Topic, work: WorkBudget) -> Parse:
         work.known.clear()
         try:
-            return self.read(text, topic, work, asking=True)
+            parsed = self.read(text, topic, work, asking=True)
         except BudgetExceededError:
             return Refused(text, "not_understood", self.data.messages["too_involved"])
+        return (isinstance(parsed, Refused) and self._rules.read(text, topic, work)) or parsed
 
     def read(self, text: str, topic: Topic, work: WorkBudget, *, asking: bool) -> Parse:
         """`parse`; unless `asking`, what would be asked about is refused, and nothing is suggested.

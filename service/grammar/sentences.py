@@ -32,10 +32,12 @@ from service.actions import (
     Teach,
     Undo,
 )
-from service.grammar.sentences_of_things import ThingSentences, Unsayable, number
+from service.grammar.sentences_of_rules import RuleSentences
+from service.grammar.sentences_of_things import Unsayable, number
 from sim.actions import (
     Add,
     Adjust,
+    Cancel,
     Copy,
     Drive,
     MoveThings,
@@ -47,6 +49,7 @@ from sim.actions import (
     SetCount,
     SetMode,
     Swap,
+    Trigger,
     Where,
 )
 from sim.planner_names import BUILT_IN, canonical
@@ -59,7 +62,7 @@ _FULL_SPEED = ("playback_speed", "max")
 _KEPT_APART = (Teach, Forget)
 
 
-class Sentences(ThingSentences):
+class Sentences(RuleSentences):
     """Sentences in one language."""
 
     def names(self, kind: str) -> dict[str, str]:
@@ -91,8 +94,8 @@ class Sentences(ThingSentences):
         before: Action | None = None
         for action in actions:
             if before is not None:
-                # A what-if takes in all that follows it, so it has a sentence of its own.
-                apart = any(isinstance(each, Ask) for each in (before, action))
+                # A what-if and a rule take in all that follows them, so they have sentences of their own.
+                apart = any(isinstance(each, Ask | Trigger) for each in (before, action))
                 whole += self._words["stop"] if apart else self._words["then"]
             whole += self._request(action)
             before = action
@@ -160,6 +163,10 @@ class Sentences(ThingSentences):
                 )
                 runs = action.runs and self._say("find_worst_runs", runs=action.runs)
                 return self._say("find_worst", planner=planner or "", runs=runs or "")
+            case Trigger():
+                return self._rule(action, self.sentence(action.then))
+            case Cancel():
+                return self._cancel(action)
             case Advise():
                 thing = self._entry("things", action.hazard)[0]
                 return self._say(

@@ -15,6 +15,7 @@ from service.http.metrics import Metrics
 from service.http.realtime.frame_stream import Reels
 from service.http.realtime.open_streams import OpenStreams
 from service.interpreter.interpreter import Interpreter
+from service.jobs import JobRunner
 from service.security.guard import Guard
 from service.sessions.manager import SessionManager
 from service.sessions.narrator_protocol import NarratorProtocol
@@ -38,10 +39,9 @@ class Context:
     metrics: Metrics
     answers: KeptAnswers
     """what was answered under idempotency keys"""
+    jobs: JobRunner
     drawing: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
     """one picture at a time"""
-    filming: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
-    """one video at a time"""
     backups: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
     """one backup at a time"""
     reels: Reels = field(default_factory=Reels)

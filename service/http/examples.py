@@ -30,6 +30,16 @@ FORK: Examples = {
         "value": {"at_tick": 2, "actions": [{"do": "add", "kind": "barrier", "count": 1}], "name": "blocked"},
     },
 }
+EVALUATION: Examples = {
+    "sentence": {
+        "summary": "In words",
+        "value": {"text": "run 20 episodes with A* and compare with the rule planner"},
+    },
+    "figures": {
+        "summary": "In figures",
+        "value": {"runs": 20, "planners": ["rules", "bfs"], "config": {"potholes": 20}, "seed": 5},
+    },
+}
 REWIND: Examples = {"tick": {"summary": "Back to tick 2", "value": {"tick": 2}}}
 SAID: Examples = {
     "add": {"summary": "Change the road", "value": {"text": "add five potholes"}},

@@ -21,6 +21,7 @@ from service.server_timing import PARTS, Part, told_to
 from service.sessions.manager import SessionManager
 from service.sessions.persistence.snapshot_scheduler import SNAPSHOT_RESULTS
 from service.store import Store
+from service.work.executor import FATES
 
 LATENESS_S = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1.0)
 COMMAND_S = (0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5)
@@ -124,6 +125,13 @@ class Metrics:
             registry=registry,
         )
         self._snapshots: Callable[[], Mapping[str, int]] = dict
+        self._work: Callable[[], Mapping[str, int]] = dict
+        self._work_running = Gauge(
+            "roadtalk_work_running", "Dear requests that a worker process is at", registry=registry
+        )
+        self._work_waiting = Gauge(
+            "roadtalk_work_waiting", "Dear requests that wait for a worker process", registry=registry
+        )
         registry.register(cast(Any, self))
         refusals = Counter("roadtalk_refusals", "Problems answered over HTTP", ("kind",), registry=registry)
         self._expired = Counter(
@@ -138,6 +146,9 @@ class Metrics:
         self._sessions.set_function(lambda: manager.live_count)
         self._sleeping.set_function(lambda: manager.evicted_count)
         self._watchers.set_function(lambda: manager.subscriber_count)
+        self._work_running.set_function(lambda: manager.work.queue.running)
+        self._work_waiting.set_function(lambda: manager.work.queue.waiting)
+        self._work = lambda: {fate: manager.work.fates[fate] for fate in FATES}
         self._snapshots = lambda: {fate: manager.snapshots.counts[fate] for fate in SNAPSHOT_RESULTS}
 
     def command(self, channel: Channel) -> CommandTimer:
@@ -164,6 +175,10 @@ class Metrics:
         for fate, count in self._snapshots().items():
             family.add_metric([fate], count)
         yield family
+        work = CounterMetricFamily("roadtalk_work", "Dear requests, by what became of them", labels=["fate"])
+        for fate, count in self._work().items():
+            work.add_metric([fate], count)
+        yield work
         yield self.lateness.collect()
 
 

@@ -76,6 +76,8 @@ def _document_route(route: APIRoute, method: str, operation: dict[str, Any]) -> 
     policy = policy_of(route.endpoint)
     if isinstance(route, ApiRoute):
         _add_problems(operation, "invalid")  # parameters in the URL
+        if "/sessions" in route.path_format:
+            _add_problems(operation, "too-much-work", "too-much-at-once", "stopped")
     idempotency.document(method, policy.idempotency_key, operation, _add_problems)
     etag.document(method, route.path_format, policy.entity_tag, operation, _add_problems)
     access_control.document(method, guarded, operation, _add_problems)

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from service import actions as contract
+from service.http.evaluation_json import started_json
 from service.interpreter.interpreter import ParsedCommand
+from service.sessions.facts import JobAsked
 from service.sessions.utterance import Outcome
 
 
@@ -26,4 +28,7 @@ def result_json(outcome: Outcome, heard: ParsedCommand | None, dry_run: bool) ->
         "sequence": outcome.sequence,
         "corrections": corrections_json(heard),
         "dry_run": dry_run,
+        "evaluations": [
+            started_json(fact.job) for fact in outcome.facts if isinstance(fact, JobAsked) and fact.job
+        ],
     }

@@ -22,6 +22,7 @@ from starlette.types import Receive, Scope, Send
 
 from service.http import json
 from service.http.access_control import check_access, count_change
+from service.http.asker import asked_by
 from service.http.body_limit import read_body, receive_again
 from service.http.conditional.etag import check_before_call
 from service.http.conditional.handler import handle_conditionally
@@ -48,6 +49,7 @@ class GuardedRoute(APIRoute):
         context = context_in(scope)
         check_access(scope, context.guard)
         count_change(scope, context.guard)
+        later = receive
         if scope["method"] not in _WITHOUT_BODY:
             try:
                 body = await read_body(scope, receive, self.body_limit(context.settings))
@@ -55,7 +57,7 @@ class GuardedRoute(APIRoute):
                 return
             receive = receive_again(body, receive)
         timed = self.policy.timed and scope["method"] in (self.methods or ())
-        with context.metrics.command("rest") if timed else nullcontext():
+        with asked_by(scope, later), context.metrics.command("rest") if timed else nullcontext():
             await super().handle(scope, receive, send)
 
     def body_limit(self, settings: Settings) -> int:

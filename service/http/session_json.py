@@ -34,6 +34,7 @@ def links_json(session_id: str) -> dict[str, str]:
         "changes",
         "moments",
         "forecast",
+        "percept",
         "regret",
         "counterfactual",
         "recording",

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from anyio import to_thread
+from anyio import CapacityLimiter, to_thread
 
 from service.actions import Action, Ask, Drop, Forget, Teach
 from service.actions.table import ModelUse, traits_of
@@ -22,7 +22,7 @@ from service.grammar.references import parse_in_topic
 from service.grammar.sentences import Unsayable
 from service.grammar.topic import ALONE, Topic
 from service.interpreter.aliases import Aliases
-from service.interpreter.languages import Languages
+from service.interpreter.languages import Language, Languages
 from service.interpreter.preview import Preview, preview
 from service.interpreter.question import Asked, answered, asked_by
 from service.llm.protocol import LanguageModel
@@ -42,9 +42,12 @@ from sim.session.config_to_actions import UndescribableError, config_to_actions
 
 MAX_SUGGESTIONS = 3
 
-MAX_INLINE_CHARS = 120
-"""Longest text, in characters, that is parsed on the event loop. Longer ones may take 20 ms and more, so
-a thread parses them."""
+MAX_INLINE_CHARS = 60
+"""Longest text, in characters, that is parsed on the event loop: within a few milliseconds. A thread parses
+longer ones, which may take 30 ms (`service.grammar.work_budget` limits them)."""
+
+PARSERS = 2
+"""Threads that parse at once: each delays the event loop a little."""
 
 Source = Literal["grammar", "llm", "typed"]
 
@@ -88,6 +91,7 @@ class Interpreter:
         self._model = model
         self._confirm = confirm
         self._rephrase = rephrase
+        self._parsing = CapacityLimiter(PARSERS)
 
     def topic(self, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Topic:
         """What a sentence may refer to: the session's conversation, and aliases."""
@@ -114,11 +118,9 @@ class Interpreter:
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         language, topic = self.languages[code], self.topic(session, code)
         if len(text) <= MAX_INLINE_CHARS:
-            parsed = parse_in_topic(language.parse, text, topic)
+            parsed = _parse(language, text, topic)
         else:
-            parsed = await to_thread.run_sync(parse_in_topic, language.parse, text, topic)
-        if isinstance(language, Grammar):
-            parsed = read_in_conversation(language, text, topic, parsed)
+            parsed = await to_thread.run_sync(_parse, language, text, topic, limiter=self._parsing)
         return answered(language, code, text, parsed, None if session is None else session.pending)
 
     async def interpret(
@@ -288,6 +290,11 @@ class Interpreter:
             raise refusal from None
         offered = (PendingChoice(said, reading.actions),)
         raise Asked(PendingQuestion(text, words.said("confirm"), offered, "llm", code))
+
+
+def _parse(language: Language, text: str, topic: Topic) -> Parse:
+    parsed = parse_in_topic(language.parse, text, topic)
+    return read_in_conversation(language, text, topic, parsed) if isinstance(language, Grammar) else parsed
 
 
 def _drops_pending(utterance: Utterance, pending: PendingQuestion | None) -> bool:

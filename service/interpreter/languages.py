@@ -58,10 +58,12 @@ class Languages:
         return cls(loaded)
 
     def prepare(self) -> None:
-        """Make what the first refusal needs, so that nobody waits for it. For any thread."""
+        """Make what the first refusals and follow-ups need, so that nobody waits. For any thread."""
         for language in self._by_code.values():
             if isinstance(language, Grammar):
                 language.suggestions.nearest("", ())
+                for table in ("joiners", "typos"):  # made when they are first read
+                    getattr(language, table)
 
     @property
     def codes(self) -> tuple[str, ...]:

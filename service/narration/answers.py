@@ -20,6 +20,7 @@ from service.narration.next import Next
 from service.narration.others import Others
 from service.narration.planners import Planners
 from service.narration.quiz.answer import Quizzes
+from service.narration.rules import RulesTold
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.settings import Settings
@@ -67,6 +68,7 @@ class Answers:
             "blame": Blames(sayings),
             "planners": Planners(sayings),
             "quiz": Quizzes(sayings),
+            "rules": RulesTold(sayings),
         }
 
     def answer(self, asked: Answerable) -> Json:

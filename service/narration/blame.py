@@ -16,11 +16,21 @@ from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
+from sim.explain.attribution import Attribution, attribute
 from sim.explain.blame import RERUN_TICKS, Blame, Fault, Foreseen, blame, foreseen
 from sim.explain.crash import SAVED_WITHIN, Crash
+from sim.plan import traits_of
+from sim.session.timeline import Timeline
 from sim.state import SimState
 
 Words: TypeAlias = Mapping[str, str]
+
+
+def _attribution(timeline: Timeline, found: Blame) -> Attribution | None:
+    """What would have avoided a crash that was the sensor's fault; not looked for where it takes long."""
+    if found.fault is not Fault.SENSOR or not traits_of(found.decision.planner).quick:
+        return None
+    return attribute(timeline, found.crash.end)
 
 
 class Blames:
@@ -40,14 +50,18 @@ class Blames:
                 text, facts = self._foreseen(seen, first), foreseen_json(seen)
             else:
                 found = blame(timeline, ask.tick)
-                text, facts = self._text(str(ask.what), found, first), blame_json(found)
+                spared = _attribution(timeline, found) if ask.what == "fault" else None
+                text, facts = self._text(str(ask.what), found, first, spared), blame_json(found)
+                if spared is not None:
+                    facts["avoided_by"] = [[each.setting, each.value] for each in spared.avoided_by]
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, self._crashes.not_so(error))
         return plain(self._sayings, ask, timeline.state, text) | {"what": ask.what} | facts
 
-    def _text(self, what: str, found: Blame, first: Words) -> str:
+    def _text(self, what: str, found: Blame, first: Words, spared: Attribution | None) -> str:
         if what == "fault":
-            return within(self._fault(found))
+            *told, measure = self._fault(found)
+            return within([*told, *self._spared(spared), measure])
         if what == "too_late":
             return self._too_late(found)
         return within(self._avoidable(found, first))
@@ -65,6 +79,15 @@ class Blames:
         elif found.avoidable.last is not None and found.fault in (Fault.OTHER, Fault.NOBODY):
             told.append(Part(3, self._say("hindsight", **self._last(found))))
         return [*told, Part(2, self._say("measure"))]
+
+    def _spared(self, spared: Attribution | None) -> list[Part]:
+        """Which other sensor or conditions would have avoided it, where that was looked for."""
+        if spared is None:
+            return []
+        if not spared.avoided_by:
+            return [Part(1, self._say("spared_none"))]
+        named = [self._say("changes", each.value) for each in spared.avoided_by]
+        return [Part(1, self._say("spared", changes=self._sayings.joined(named)))]
 
     def _how(self, found: Blame) -> str:
         """How the ego could have kept clear."""

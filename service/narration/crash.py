@@ -10,9 +10,11 @@ from service.narration.naming import Naming
 from service.narration.options import Options
 from service.narration.proofs import called
 from service.narration.sayings import Sayings
+from service.narration.values import conditions_of
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.crash import Crash, why_crashed
+from sim.perceive.detection import detection_chance
 from sim.plan import Decision
 from sim.types import Move, kind_of
 
@@ -88,6 +90,8 @@ class Crashes:
         hit = [name for name in crash.missed if name in crash.cause.ids]
         others = [name for name in crash.missed if name not in hit]
         told = [self._say("missed", "one" if len(hit) == 1 else "many")] if hit else []
+        if hit and (told_by := self._missed_by(crash, hit[0])):
+            told.append(told_by)
         if others:
             key = "missed_others" if hit else "missed_besides"
             told.append(self._say(key, who=naming.things(others)))
@@ -95,6 +99,19 @@ class Crashes:
         imagined = seen.imagined([cause.id for cause in crash.explanation.causes])
         phrases = dict.fromkeys(self._sayings.imagined(name, where) for name, where in imagined.items())
         return told + [self._say("imagined", told=phrase) for phrase in phrases]
+
+    def _missed_by(self, crash: Crash, name: str) -> str:
+        """Under which conditions a thing was not detected, and how often one look detects such."""
+        config = crash.explanation.moment.config
+        chance = detection_chance(config, kind_of(name), config.cell_m)
+        if chance is None:
+            return ""
+        return self._say(
+            "missed_by",
+            conditions=conditions_of(self._sayings, config),
+            metres=self._sayings.number(config.cell_m),
+            percent=self._sayings.number(round(100 * chance)),
+        )
 
     def _by_whom(self, decision: Decision) -> str:
         if decision.fault is not None:

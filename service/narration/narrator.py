@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from service.narration.naming import Naming
 from service.narration.options import Options
 from service.narration.planner_reasons import planner_reasons
 from service.narration.replies import Replies
+from service.narration.rules import Rules
 from service.narration.sayings import Sayings
 from service.narration.side_by_side import SidesBySide
 from service.narration.values import speed
@@ -46,16 +47,26 @@ class Narrator:
         self._replies = Replies(sayings)
         self._answers = Answers(sayings)
         self._ends = Ends(sayings)
+        self._rules = Rules(sayings)
         self._options = Options(sayings)
         self._sides = SidesBySide(sayings)
         self._first_choice = self._say("first_choice")
+        self._by_name = False
         self._told: dict[Hashable, str] = {}
         """Sentences said before, by all they are made of: the same few are said again and again."""
 
     @classmethod
     def load(cls, code: str = DEFAULT_LANGUAGE, folder: Path | None = None) -> Narrator:
         """A narrator of the language `code`."""
-        return cls(Sayings.load(code, folder))
+        narrator = cls(Sayings.load(code, folder))
+        narrator._by_name = folder is None
+        return narrator
+
+    def __reduce__(self) -> tuple[Callable[[str], Narrator | None], tuple[str]]:
+        """By name, since a worker process has the same files. Raises `TypeError` for sayings of its own."""
+        if not self._by_name:
+            raise TypeError("sayings that were not loaded by the name of their language")
+        return _narrator, (self.language,)
 
     @property
     def language(self) -> str:
@@ -69,6 +80,10 @@ class Narrator:
     def failed(self) -> str:
         """What is said when the simulation has met a defect of its own."""
         return self._sayings.say("log", "events", "failed")
+
+    def slowed(self) -> str:
+        """What is said when decisions take longer than a tick lasts."""
+        return self._sayings.say("log", "events", "slowed")
 
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
         """What the vehicle does at a tick and why, in one line.
@@ -164,6 +179,8 @@ class Narrator:
             return self._ends.text(run)
         if event.type is EventType.NO_WAY:
             return self._no_way(event, run)
+        if event.rule is not None:
+            return self._rules.event(event, self._replies)
         ticks = run.world.episode_tick
         reason = ""
         if event.type is EventType.HELD_BACK and event.move is not None:
@@ -196,6 +213,10 @@ class Narrator:
             return self._sayings.say("log", "no_way", event.how or "plain")
         form = "one" if len(event.ids) == 1 else "many"
         return self._sayings.say("log", "no_way", "without", form, who=self._pointed_at(event, run))
+
+    def rules(self, run: SimState) -> list[dict[str, Any]]:
+        """The rules that stand, as JSON values."""
+        return self._rules.listed(run.triggers)
 
     def speed(self, pace: PlaybackSpeed) -> str:
         """A playback speed."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from service.narration.evaluation import EvaluationWords
 from service.narration.goals import Goals
 from service.narration.placing import how_many_now, place_of
 from service.narration.rearranged import told_rearranged
+from service.narration.rules import Rules
 from service.narration.sayings import Sayings
-from service.narration.values import speed, value_of
+from service.narration.values import conditions_of, speed, value_of
 from service.sessions.bookmarks import Bookmarked, Jumped
 from service.sessions.facts import (
     Advised,
@@ -17,6 +19,7 @@ from service.sessions.facts import (
     Chatted,
     Dropped,
     Fact,
+    JobAsked,
     PauseSet,
     Resolved,
     Stepped,
@@ -27,6 +30,7 @@ from service.sessions.scheduler.playback_speed import PlaybackSpeedSet
 from sim.actions import (
     Add,
     Adjust,
+    Cancel,
     Copy,
     Drive,
     MoveThings,
@@ -39,8 +43,11 @@ from sim.actions import (
     SetCount,
     SetMode,
     Swap,
+    Trigger,
 )
+from sim.config import Config
 from sim.events import EventType
+from sim.perceive import sensor_named
 from sim.plan import traits_of
 from sim.session.edits import Applied, Change
 from sim.session.settings import AS_IT_IS, FROM_THE_NEXT_ROAD, NEEDS_A_NEW_ROAD
@@ -58,7 +65,9 @@ class Replies:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._evaluations = EvaluationWords(sayings)
         self._goals = Goals(sayings, self._scenario, self.done)
+        self._rules = Rules(sayings)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
@@ -112,6 +121,8 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
+            case JobAsked():
+                return self._evaluations.started(fact)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():
@@ -138,6 +149,8 @@ class Replies:
                 return self._preferring(applied)
             case Set(parameter=parameter) | Adjust(parameter=parameter):
                 return self._setting(parameter, applied)
+            case Trigger() | Cancel():
+                return self._rules.told(applied)
             case Drive(move=move):
                 key = "drive" if applied.state.mode is Mode.MANUAL else "drive_then_auto"
                 said = self._say(key, move=self._sayings.move(move, "do"))
@@ -166,7 +179,17 @@ class Replies:
         told = [said, self._say("on_the_road", diff=counted) if counted else ""]
         if parameter in FROM_THE_NEXT_ROAD:
             told.append(self._say("next_road" if not counted else "next_roads_too"))
+        told.append(self._without_effect(parameter, applied.state.config))
         return " ".join(sentence for sentence in told if sentence)
+
+    def _without_effect(self, parameter: str, config: Config) -> str:
+        """That the sensor heeds no weather, light or doubt, where such a setting was changed."""
+        if not sensor_named(config.sensor).faithful:
+            return ""
+        if parameter == "detection_sensitivity":
+            return self._say("sees_all")
+        worse = (parameter, getattr(config, parameter)) not in (("weather", "clear"), ("time_of_day", "day"))
+        return self._say("sees_through") if parameter in ("weather", "time_of_day") and worse else ""
 
     def _value(self, parameter: str, value: object) -> str:
         """A value as people know it."""
@@ -240,6 +263,17 @@ class Replies:
         return self._say("prefer", wishes=self._sayings.joined(wishes)) if wishes else self._say("balanced")
 
     def _scenario(self, run: SimState) -> str:
+        """What a new road is, and under which conditions, where they are not those of every road."""
+        config = run.config
+        told = [self._new_road(run)]
+        if conditions := conditions_of(self._sayings, config):
+            told.append(self._say("conditions", conditions=conditions))
+        told += [said for name in ("weather", "time_of_day") if (said := self._without_effect(name, config))][
+            :1
+        ]
+        return " ".join(told)
+
+    def _new_road(self, run: SimState) -> str:
         road = self._sayings.say("replies", "roads", run.config.road or "none")
         contents = [
             self._say("contents", count=count, things=self._sayings.things(kind, count))

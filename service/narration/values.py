@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from service.narration.sayings import Sayings
 from service.sessions.scheduler.playback_speed import MAX, PlaybackSpeed
+from sim.config import Config
+from sim.sensor_names import DEFAULT_SENSOR
 
 _PERCENT_DIGITS = 9
 """Decimals of a percentage that are no rounding errors."""
@@ -14,6 +16,14 @@ def speed(sayings: Sayings, pace: PlaybackSpeed) -> str:
     if pace == MAX:
         return sayings.say("replies", "speed", "max")
     return sayings.say("replies", "speed", "times", speed=sayings.number(float(pace)))
+
+
+def conditions_of(sayings: Sayings, config: Config) -> str:
+    """Sensor, weather and time of day, where they are not those of every road; empty where all are."""
+    plain = {"sensor": DEFAULT_SENSOR, "weather": "clear", "time_of_day": "day"}
+    values = {name: getattr(config, name) for name in plain}
+    told = [value_of(sayings, name, value) for name, value in values.items() if value != plain[name]]
+    return sayings.joined(told)
 
 
 def value_of(sayings: Sayings, parameter: str, value: object) -> str:

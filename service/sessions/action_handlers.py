@@ -7,7 +7,7 @@ Actions that change the world share one handler, since `sim.session.edits` appli
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from service.actions import (
@@ -15,6 +15,7 @@ from service.actions import (
     Ask,
     Chat,
     Drop,
+    Evaluate,
     Forget,
     Goal,
     Hide,
@@ -31,6 +32,8 @@ from service.actions import (
     Undo,
 )
 from service.actions.table import sets_playback_speed, types_where
+from service.evaluations.refuse import refuse_evaluation
+from service.evaluations.request import evaluation_of
 from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable
 from service.sessions.bookmarks import MAX_BOOKMARKS, Bookmark, Bookmarked, Jumped, unknown_bookmark
 from service.sessions.facts import (
@@ -39,6 +42,7 @@ from service.sessions.facts import (
     Chatted,
     Dropped,
     Fact,
+    JobAsked,
     PauseSet,
     Resolved,
     Stepped,
@@ -55,12 +59,15 @@ from service.sessions.scheduler.playback_speed import (
 from service.sessions.take_back import take_back
 from service.styles import styles
 from sim.actions import Adjust, Set, Weather, WorldAction
+from sim.evaluate import EvaluationError
 from sim.goals import Budget, CancelledError, find_goal
 from sim.hazard_advice import NoAdviceError, advise
 from sim.planner_names import canonical
 from sim.session.edits import Applied
 from sim.session.errors import EditError
-from sim.session.timeline import PlannerSilentError
+from sim.session.timeline import PlannerSilentError, Timeline
+from sim.session.triggers import pauses
+from sim.state import StepResult
 from sim.types import Kind
 
 if TYPE_CHECKING:
@@ -127,6 +134,15 @@ def _reach_goal(transaction: Transaction, action: Goal, sequence: int, position:
     return Resolved(action, _apply(transaction, found.actions, sequence, position), found)
 
 
+@handles(Evaluate)
+def _evaluate(transaction: Transaction, action: Evaluate, _sequence: int, position: int) -> JobAsked:
+    try:
+        state = transaction.timeline.state
+        return JobAsked(evaluation_of(action, state.config_of(), state))
+    except EvaluationError as error:
+        raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
+
+
 @handles(Style)
 def _set_style(transaction: Transaction, action: Style, sequence: int, position: int) -> Resolved:
     known = styles()
@@ -186,9 +202,19 @@ def _step(transaction: Transaction, action: Step, _sequence: int, _position: int
     transaction.paused = True
     timeline = transaction.timeline
     try:
-        return Stepped(timeline.tick, tuple(timeline.advance() for _ in range(action.ticks)))
+        first = timeline.tick
+        return Stepped(first, tuple(_until_paused(timeline, action.ticks)))
     except PlannerSilentError as silence:
         raise planner_timeout_problem(silence, transaction.language) from silence
+
+
+def _until_paused(timeline: Timeline, ticks: int) -> Iterator[StepResult]:
+    """So many ticks, or those up to one in which a rule stops the clock."""
+    for _ in range(ticks):
+        tick = timeline.advance()
+        yield tick
+        if pauses(tick.events):
+            return
 
 
 @handles(Undo, Redo)

@@ -6,8 +6,9 @@ refusals. What a scenario may name is decided by `sim.session.scenario`.
 
 from __future__ import annotations
 
-from service.actions import Action, Ask, Goal, Hide, Show
+from service.actions import Action, Ask, Evaluate, Goal, Hide, Show
 from service.actions.table import WhatIf, sets_playback_speed, traits_of
+from service.evaluations.request import unavailable_part
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from sim.actions import (
@@ -25,6 +26,7 @@ from sim.actions import (
     SetCount,
     SetMode,
     Swap,
+    Trigger,
 )
 from sim.session.scenario import find_unavailable
 from sim.session.settings import is_available
@@ -41,6 +43,8 @@ def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
         return next(
             (said for each in action.change or () if (said := _refuse_imagined(each, language))), None
         )
+    if isinstance(action, Trigger):
+        return next((said for each in action.then if (said := refusal_of(each, language))), None)
     if not traits_of(action).offered:
         return words.session(action.do)
     match action:
@@ -54,6 +58,9 @@ def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
             return words.session("view_of_sensors")
         case Scenario():
             missing = find_unavailable(action)
+            return None if missing is None else words.problem(missing)
+        case Evaluate():
+            missing = unavailable_part(action)
             return None if missing is None else words.problem(missing)
         case Set() | Adjust() if sets_playback_speed(action):
             return None

@@ -7,19 +7,21 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from functools import partial
 
-from anyio import to_thread
-
 from service import actions as contract
 from service.actions import Action
 from service.actions.table import PLAYBACK_SPEED, traits_of
 from service.sessions.facts import performed_actions
 from service.sessions.fork import fork_point
 from service.sessions.persistence.replay import replay_one
-from service.sessions.scheduler.offload import STEPS_S, with_time_limit
+from service.sessions.persistence.replay_elsewhere import replay_entry
+from service.sessions.persistence.session_snapshot import SessionSnapshot
+from service.sessions.scheduler.offload import STEPS_S, run_in_thread
 from service.sessions.scheduler.playback_speed import NORMAL
 from service.sessions.services import SessionServices
 from service.sessions.session import Session
+from service.sessions.work_estimate import transaction_units
 from service.store import EntryRecord, SessionRecord
+from service.work.units import THREAD
 from sim.actions import Set
 
 
@@ -37,7 +39,7 @@ async def build_fork(
     """
     speed, begins = parent.playback_speed, parent.paused if paused is None else paused
     partial_changes, timeline = parent.partial_changes.copy(), parent.timeline.copy()
-    point = await to_thread.run_sync(fork_point, parent.id, partial_changes, timeline, tick)
+    point = await services.work.in_thread(fork_point, parent.id, partial_changes, timeline, tick)
     record = SessionRecord(
         id=secrets.token_urlsafe(16),
         name=name,
@@ -55,7 +57,7 @@ async def build_fork(
         # Done only to refuse what is not possible: as everywhere, it is not stored.
         session.begin_transaction().perform(session.sequence + 1, actions)
         actions = ()
-    actions = await to_thread.run_sync(_settled, session, actions)
+    actions = await services.work.in_thread(_settled, session, actions)
     said: list[tuple[Action, ...]] = (
         [] if speed == NORMAL else [(Set(parameter=PLAYBACK_SPEED, value=speed),)]
     )
@@ -70,11 +72,35 @@ async def build_fork(
             actions=contract.dump(each),
         )
         entries.append(entry)
-        again = partial(replay_one, session, session.narrator, entry)
-        await to_thread.run_sync(with_time_limit(STEPS_S, again))
+        session = await _perform(session, entry, each, services)
     session.record = replace(record, tick=session.timeline.tick)
     session.paused = session.paused if paused is None else paused
     return session, entries
+
+
+async def _perform(
+    session: Session, entry: EntryRecord, actions: tuple[Action, ...], services: SessionServices
+) -> Session:
+    """The session with an entry performed; another object where that was done in a worker process."""
+    transaction = session.begin_transaction()
+    units = transaction_units(transaction, actions)
+    services.work.check(units)
+    again = partial(replay_one, session, session.narrator, entry)
+    if transaction.needs_external_planner(actions):
+        await run_in_thread(True, STEPS_S, again)
+        return session
+    if units <= THREAD:
+        await services.work.in_thread(again)
+        return session
+    snapshot = SessionSnapshot.take(session)
+    done = await services.work.in_process(
+        units, replay_entry, session.record, snapshot, entry, services.narrator, services.settings
+    )
+    partial_changes = session.partial_changes
+    session = done.revive(session.record, services)
+    session.paused = done.snapshot.paused
+    session.partial_changes |= partial_changes
+    return session
 
 
 def _settled(session: Session, actions: tuple[Action, ...]) -> tuple[Action, ...]:

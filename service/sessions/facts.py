@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from service.actions import Action, Ask, Goal, Style
 from service.sessions.bookmarks import Bookmarked, Jumped
 from service.sessions.pending import NO_TALK, Talk
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed, PlaybackSpeedSet
+from sim.evaluate import Evaluation
 from sim.goals import Finding
 from sim.hazard_advice import Advice
 from sim.session.edits import Applied, Change
@@ -93,6 +94,14 @@ class Chatted:
 
 
 @dataclass(frozen=True, slots=True)
+class JobAsked:
+    """An evaluation is asked for; `job` is its id once it is started, which a replay never does."""
+
+    evaluation: Evaluation
+    job: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Dropped:
     """The pending question was dropped; `question` is None where nothing was pending."""
 
@@ -125,15 +134,18 @@ Fact: TypeAlias = (
     | Viewed
     | Chatted
     | Dropped
+    | JobAsked
     | Answerable
 )
 
 
 def spread_facts(facts: Sequence[Fact]) -> Iterator[Fact]:
-    """The facts, each goal and style as what it came to."""
+    """The facts as a replay would make them: each goal and style as what it came to, no job started."""
     for fact in facts:
         if isinstance(fact, Resolved):
             yield from fact.done
+        elif isinstance(fact, JobAsked):
+            yield replace(fact, job=None)
         else:
             yield fact
 
@@ -191,7 +203,7 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.before, fact.tick), *fact.changes)
         case Resolved():
             return tuple(change for each in fact.done for change in each.changes)
-        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped():
+        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped() | JobAsked():
             return ()
 
 

@@ -14,7 +14,6 @@ from datetime import UTC, datetime
 from functools import partial
 
 import structlog
-from anyio import to_thread
 
 from service.actions import Action
 from service.problems import (
@@ -31,21 +30,38 @@ from service.sessions.bookmarks import attach_names
 from service.sessions.build_fork import build_fork
 from service.sessions.persistence.recording import Recording, replay_recording
 from service.sessions.persistence.replay import ReplayError
+from service.sessions.persistence.replay_elsewhere import replay_log
 from service.sessions.persistence.restore import restore
 from service.sessions.persistence.seal import SECRET, Seal
+from service.sessions.persistence.snapshot_records import UnfitError
 from service.sessions.persistence.snapshot_scheduler import SnapshotScheduler
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.scheduler.eviction import Evictor, IdleTimes, RoomMaker
-from service.sessions.scheduler.offload import REPLAY_S, with_time_limit
+from service.sessions.scheduler.offload import REPLAY_S, run_in_thread, uses_installed_planner
 from service.sessions.services import SessionServices
 from service.sessions.session import Session
 from service.sessions.transaction import check_step_ticks
-from service.store import BookmarkRecord, EntryRecord, SessionRecord, StoredResponse, StoreError
+from service.sessions.work_estimate import log_units
+from service.store import (
+    BookmarkRecord,
+    EntryRecord,
+    SessionRecord,
+    SnapshotRecord,
+    StoredResponse,
+    StoreError,
+)
+from service.work.asker import of_nobody
+from service.work.executor import WorkExecutor
+from service.work.units import THREAD
 from sim.config import Config, ConfigError
 from sim.rules.versions import NewerRulesError
+from sim.session.saved_config import saved_config
 from sim.session.timeline import Timeline
 
 _LOG = structlog.get_logger(__name__)
+
+LARGE_ROAD_CELLS = 2_000
+"""Roads of more cells are drawn in a thread."""
 
 CLOSE_TIMEOUT_S = 0.2
 """Time for changes under way to finish at a stop."""
@@ -68,6 +84,11 @@ class SessionManager:
         """that of the recordings made here, once the store is open"""
         self.idle_times = IdleTimes()
         self.snapshots = SnapshotScheduler(services.store, services.settings)
+
+    @property
+    def work(self) -> WorkExecutor:
+        """The executor of dear work."""
+        return self._services.work
 
     @property
     def live_sessions(self) -> Mapping[str, Session]:
@@ -122,10 +143,11 @@ class SessionManager:
                 language=language,
             )
             # Looking for a road that can be driven may take many draws.
-            timeline = await asyncio.to_thread(Timeline, config) if config.solvable else Timeline(config)
+            slow = config.solvable or config.columns * config.rows > LARGE_ROAD_CELLS
+            timeline = await self.work.in_thread(Timeline, config) if slow else Timeline(config)
             session = Session(record, timeline, self._services)
             if recorded is not None:
-                await replay_recording(session, recorded, self._services)
+                session = await replay_recording(session, recorded, self._services)
             session.paused = paused
             await self._store(session, recorded.entries if recorded else (), answer)
         finally:
@@ -202,7 +224,8 @@ class SessionManager:
         # All who ask at once wait for the same replay.
         task = self._restoring.get(session_id)
         if task is None:
-            task = asyncio.ensure_future(self._restore(session_id))
+            with of_nobody():  # not cancelled with the first who asks
+                task = asyncio.ensure_future(self._restore(session_id))
             self._restoring[session_id] = task
             task.add_done_callback(lambda _: self._restoring.pop(session_id, None))
         return await asyncio.shield(task)
@@ -319,8 +342,7 @@ class SessionManager:
         try:
             entries = await self._services.store.entries(session_id)
             snapshot = await self.snapshots.find(session_id)
-            back = partial(restore, record, entries, snapshot, self._services)
-            session, unfit = await to_thread.run_sync(with_time_limit(REPLAY_S, back))
+            session, unfit = await self._bring_back(record, entries, snapshot)
         except ReplayError as error:
             sequence = entries[error.position].sequence if error.position < len(entries) else None
             _LOG.error(
@@ -340,6 +362,23 @@ class SessionManager:
         self.snapshots.add(session)
         session.reachability.start_road(session.run)
         return session
+
+    async def _bring_back(
+        self, record: SessionRecord, entries: Sequence[EntryRecord], snapshot: SnapshotRecord | None
+    ) -> tuple[Session, UnfitError | None]:
+        """See `restore`; a long log without a snapshot is replayed in a process, whatever it costs."""
+        config = saved_config(record.config)
+        long = snapshot is None and record.branch is None
+        units = log_units(config, entries, record.tick) if long else 0
+        back = partial(restore, record, entries, snapshot, self._services)
+        if uses_installed_planner(config, entries):
+            return await run_in_thread(True, REPLAY_S, back)
+        if units <= THREAD:
+            return await self.work.in_thread(back)
+        done = await self.work.in_process(
+            units, replay_log, record, entries, record.tick, self._services.narrator, self._services.settings
+        )
+        return done.revive(record, self._services), None
 
     async def _make_room(self) -> None:
         """Evict the sessions idle longest if the limit is reached. Raises `TooManySessions`."""

@@ -55,9 +55,9 @@ def tick_message(
     narration: str | None,
     lines: Sequence[LogEvent],
 ) -> bytes:
-    """One tick: what moved, or the whole state where a new road began (with `status`)."""
+    """One tick: what moved, or the whole state where a new road began or a rule was done (with `status`)."""
     world = after.world
-    if world.episode != before.world.episode:
+    if world.episode != before.world.episode or after.triggers is not before.triggers:
         seen: Json = {"state": state_json(status(), after)}
     else:
         seen = motion_json(before.world, world)

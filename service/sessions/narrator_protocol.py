@@ -26,6 +26,9 @@ class NarratorProtocol(Protocol):
     def failed(self) -> str:
         """What is said when the simulation has met a defect of its own."""
 
+    def slowed(self) -> str:
+        """What is said when decisions take longer than a tick lasts, so that time runs slower."""
+
     def decision(self, decision: Decision, run: SimState, forecast: Forecast | None = None) -> str:
         """What the vehicle does at a tick and why; `run` is the state in which it decided.
 
@@ -40,6 +43,9 @@ class NarratorProtocol(Protocol):
 
     def event(self, event: Event, run: SimState) -> str:
         """One line of the log."""
+
+    def rules(self, run: SimState) -> list[dict[str, Any]]:
+        """The rules that stand in a state, as JSON values, with the words of each."""
 
     def speed(self, pace: PlaybackSpeed) -> str:
         """A playback speed: `4×`."""

@@ -12,6 +12,7 @@ from service.sessions.facts import (
     Answerable,
     Asked,
     Fact,
+    JobAsked,
     Resolved,
     merge_changes,
     performed_actions,
@@ -46,7 +47,7 @@ def make_outcome(
         )
     answers, said = _narrate(own, facts)
     as_replayed = tuple(spread_facts(facts))
-    alike = own is narrator and not any(isinstance(fact, Resolved) for fact in facts)
+    alike = own is narrator and not any(isinstance(fact, Resolved | JobAsked) for fact in facts)
     done = said if alike or not _changing(facts) else _narrate(narrator, as_replayed)[1]
     noticed = "" if notice is None else notice.text
     if notice is not None and own is not narrator:

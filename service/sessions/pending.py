@@ -7,7 +7,7 @@ stored nowhere: after a restart nothing is pending.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from service import actions as contract
@@ -56,6 +56,18 @@ class Talk:
     """the log lines of what was done, the latest last"""
     explained: Ask | None = None
     """the question that was answered last, with the tick that it turned out to be about"""
+
+    def for_transfer(self) -> Talk:
+        """The same with the log lines looked up, for a process that does not have the log."""
+        return replace(self, changes=_KnownLines(self.changes()))
+
+
+@dataclass(frozen=True, slots=True)
+class _KnownLines:
+    lines: tuple[LogEvent, ...]
+
+    def __call__(self) -> tuple[LogEvent, ...]:
+        return self.lines
 
 
 NO_TALK = Talk()

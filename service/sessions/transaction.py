@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import chain, islice
 from threading import Event
+from typing import Any
 
 from service.actions import Action, Redo, Rewind, Undo
 from service.actions import Step as StepTicks
@@ -58,6 +59,13 @@ class Transaction:
         """set where nobody waits for the outcome any more: a search ends then"""
         self._jumped = False
         self._savepoint = _Savepoint(timeline, paused, speed)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but what belongs to this process, so that a worker process can perform it."""
+        return {key: value for key, value in self.__dict__.items() if key not in ("refusals", "abandoned")}
+
+    def __setstate__(self, parts: dict[str, Any]) -> None:
+        self.__dict__.update(parts, refusals=refusals(parts["language"]), abandoned=Event())
 
     def perform(self, sequence: int, actions: Sequence[Action]) -> tuple[Fact, ...]:
         """Do the actions of one utterance. Raises a `ProblemError` naming the first that cannot be."""

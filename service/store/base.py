@@ -140,6 +140,26 @@ class SnapshotRecord:
     body: bytes
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobRecord:
+    """A background job: what is to be done (`spec`), how far it is, and what it came to.
+
+    `number` orders jobs by age and is given by the store. `done` of `total` counts work; `result` and `spec`
+    are JSON values.
+    """
+
+    id: str
+    kind: str
+    state: str
+    created_at: datetime
+    spec: Mapping[str, Any]
+    done: int = 0
+    total: int = 0
+    result: Mapping[str, Any] | None = None
+    error: str | None = None
+    number: int = 0
+
+
 class Store(Protocol):
     """Durable storage of sessions. Every method may raise `StoreError`.
 
@@ -233,3 +253,29 @@ class Store(Protocol):
 
     async def backup(self, target: Path) -> None:
         """Copy everything into a new SQLite file (`service.store.backup`), while others use the store."""
+
+    async def create_job(self, record: JobRecord) -> JobRecord:
+        """Store a new job; returns it numbered."""
+
+    async def update_job(self, record: JobRecord) -> None:
+        """Replace the state, the figures, the result and the error of a job; ignored for an unknown one."""
+
+    async def job(self, job_id: str) -> JobRecord | None:
+        """A job, or None."""
+
+    async def jobs(
+        self, limit: int, before: int | None = None, state: str | None = None
+    ) -> Sequence[JobRecord]:
+        """Up to `limit` jobs, newest first, of those with a number below `before` and, if named, in a state.
+
+        Their results are left out.
+        """
+
+    async def delete_job(self, job_id: str) -> bool:
+        """Delete a job and its parts; returns whether it existed."""
+
+    async def save_job_part(self, job_id: str, key: str, body: bytes, done: int) -> None:
+        """Store what a piece of work came to, once, and how much is done; ignored for an unknown job."""
+
+    async def job_parts(self, job_id: str) -> Mapping[str, bytes]:
+        """What the finished pieces of a job came to, by key."""

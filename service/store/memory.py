@@ -18,6 +18,7 @@ from service.store.base import (
     BookmarkRecord,
     Branch,
     EntryRecord,
+    JobRecord,
     PhraseRecord,
     SessionRecord,
     SnapshotRecord,
@@ -42,6 +43,8 @@ class MemoryStore:
         self._snapshots: dict[str, SnapshotRecord] = {}
         self._used_at: dict[str, datetime] = {}
         self._secrets: dict[str, bytes] = {}
+        self._jobs: dict[str, JobRecord] = {}
+        self._parts: dict[str, dict[str, bytes]] = {}
 
     async def open(self) -> None:
         """Do nothing."""
@@ -254,3 +257,47 @@ class MemoryStore:
             (tables.SECRETS, [{"name": name, "value": value} for name, value in self._secrets.items()]),
         ]
         await to_thread.run_sync(write_file, target, contents)
+
+    async def create_job(self, record: JobRecord) -> JobRecord:
+        """See `Store.create_job`."""
+        if record.id in self._jobs:
+            raise StoreError(f"job {record.id} is there already")
+        last = max((job.number for job in self._jobs.values()), default=0)
+        self._jobs[record.id] = numbered = replace(record, number=last + 1)
+        self._parts[record.id] = {}
+        return numbered
+
+    async def update_job(self, record: JobRecord) -> None:
+        """See `Store.update_job`."""
+        if record.id in self._jobs:
+            self._jobs[record.id] = replace(record, number=self._jobs[record.id].number)
+
+    async def job(self, job_id: str) -> JobRecord | None:
+        """See `Store.job`."""
+        return self._jobs.get(job_id)
+
+    async def jobs(
+        self, limit: int, before: int | None = None, state: str | None = None
+    ) -> Sequence[JobRecord]:
+        """See `Store.jobs`."""
+        found = [
+            replace(job, result=None)
+            for job in self._jobs.values()
+            if (before is None or job.number < before) and state in (None, job.state)
+        ]
+        return sorted(found, key=lambda job: -job.number)[:limit]
+
+    async def delete_job(self, job_id: str) -> bool:
+        """See `Store.delete_job`."""
+        self._parts.pop(job_id, None)
+        return self._jobs.pop(job_id, None) is not None
+
+    async def save_job_part(self, job_id: str, key: str, body: bytes, done: int) -> None:
+        """See `Store.save_job_part`."""
+        if job_id in self._jobs:
+            self._jobs[job_id] = replace(self._jobs[job_id], done=done)
+            self._parts[job_id][key] = body
+
+    async def job_parts(self, job_id: str) -> Mapping[str, bytes]:
+        """See `Store.job_parts`."""
+        return dict(self._parts.get(job_id, {}))

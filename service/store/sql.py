@@ -50,6 +50,7 @@ from service.store.rows import (
     snapshot_to_row,
 )
 from service.store.schema import migrate
+from service.store.sql_jobs import SqlJobs
 from service.store.tables import ENTRIES, IDEMPOTENCY, MOMENTS, PHRASES, SECRETS, SESSIONS, SNAPSHOTS
 from service.whole_file import remove_partial
 
@@ -63,7 +64,7 @@ class _LostError(StoreError):
     """The server is gone or does not answer: the transaction may have been committed."""
 
 
-class SqlStore:
+class SqlStore(SqlJobs):
     """A `Store` in the database of a URL (`sqlite:///roadtalk.db`, `postgresql://host/name`)."""
 
     def __init__(self, url: str) -> None:

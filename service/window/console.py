@@ -47,10 +47,8 @@ class Console:
         return self.line.text in ("", said) or self.line.text in self.offers
 
     def take(self, exchange: Exchange) -> None:
-        """Show what came of what was said; what was refused comes back to be put right."""
+        """Show what came of what was said; ↑ brings back what was refused, to be put right."""
         self.latest, self.picked, self.scroll = exchange, -1, 0
-        if not exchange.done and exchange.said and not self.line.text:
-            self.line.set(exchange.said)
 
     def pick(self, by: int) -> bool:
         """The next of the offers into the line, or the one before; False where there is none."""

@@ -31,6 +31,8 @@ SLANTED: Final = {
     Move.RIGHT: Move.FORWARD_RIGHT,
 }
 PAGE_LINES: Final = 3
+HELD_S: Final = 0.18
+"""While the clock stands an arrow held down is a move, or a tick, this often [s]."""
 COMMAND: Final = pygame.KMOD_CTRL | pygame.KMOD_META
 
 
@@ -49,6 +51,7 @@ class Controls:
         self.picture_wanted = False
         self._held: set[int] = set()
         self._repeated = False
+        self._arrow_s = 0.0
         self._letters: dict[str, Callable[[], None]] = {
             "/": self.focus,
             "?": self._help,
@@ -99,7 +102,7 @@ class Controls:
             self._line_key(key, mod)
         elif key in (pygame.K_RETURN, pygame.K_KP_ENTER):
             self.focus()
-        elif key in MOVES and not self._repeated:
+        elif key in MOVES and (not self._repeated or self._goes_on(key)):
             self._arrow(key, mod)
 
     def key_up(self, key: int) -> None:
@@ -181,6 +184,7 @@ class Controls:
 
     def _arrow(self, key: int, mod: int) -> None:
         session, move = self.game.session, MOVES[key]
+        self._arrow_s = self.game.now_s
         if session.run.mode is Mode.MANUAL:
             if mod & pygame.KMOD_SHIFT:
                 move = SLANTED.get(move, move)
@@ -190,6 +194,16 @@ class Controls:
             self._do(Rewind(ticks=1) if key == pygame.K_LEFT else Step(ticks=1))
         else:
             self.tell(text("drives_itself"))
+
+    def _goes_on(self, key: int) -> bool:
+        """Whether an arrow held down does the same again: a move once the one before is made."""
+        session = self.game.session
+        manual = session.run.mode is Mode.MANUAL
+        if not manual and not (session.paused and key in (pygame.K_LEFT, pygame.K_RIGHT)):
+            return False
+        if not session.paused:
+            return not session.run.queue
+        return self.game.now_s - self._arrow_s >= HELD_S
 
     # Doing
 

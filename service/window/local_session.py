@@ -24,6 +24,7 @@ from service.sessions.services import SessionServices
 from service.sessions.utterance import Utterance
 from service.settings import Settings
 from service.store.memory import MemoryStore
+from service.window.decision_lines import DecisionLines
 from service.window.exchange import Exchange, exchanged, refused
 from service.window.loading import Loaded
 from service.window.panels import Panels, lacking
@@ -69,6 +70,12 @@ class Game:
         except BaseException:
             self._loop.close()
             raise
+        self.decisions = DecisionLines(self.session)
+
+    @property
+    def now_s(self) -> float:
+        """The time that the window has gone on for [s]."""
+        return self._now_s
 
     @property
     def busy(self) -> bool:
@@ -83,6 +90,7 @@ class Game:
             self._now_s = min(end, self._now_s + SUBSTEP_S)
             self._clock_turn()
         self._turn(1)
+        self.decisions.look()
 
     def say(self, text: str) -> None:
         """Say a sentence; its exchange comes as soon as it is answered."""

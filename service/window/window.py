@@ -326,10 +326,10 @@ class Window:
                 state, decision = showing.planned
                 return (id(state), decision), lambda: draw_plan(state, decision, size, self._narration())
             case _:
-                log = self.game.session.log
-                lines = log.latest(LOG_LINES)
+                log, decisions = self.game.session.log, self.game.decisions
+                lines = decisions.among(log.latest(LOG_LINES))
                 self._controls.log_back = back = min(self._controls.log_back, max(0, len(lines) - 1))
-                return (log.last_number, back), lambda: draw_log(lines, size, back)
+                return (log.last_number, decisions.changes, back), lambda: draw_log(lines, size, back)
 
     def _narration(self) -> str | None:
         assert self.game is not None

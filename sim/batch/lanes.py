@@ -13,7 +13,7 @@ last block up are copies of the last configuration's):
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, MutableSequence, Sequence
 from dataclasses import astuple, dataclass, replace
 from typing import Any, Final, Literal, NoReturn
 
@@ -98,19 +98,51 @@ class Totals:
     """ticks of the episodes that arrived, together"""
 
 
+class SeededConfigs(MutableSequence[Config]):
+    """One configuration with many seeds, each made when it is asked for: checking a million takes long."""
+
+    def __init__(self, config: Config, seeds: NDArray[np.int64]) -> None:
+        self._config = config
+        self.seeds = seeds
+        self._changed: dict[int, Config] = {}
+
+    def __len__(self) -> int:
+        return len(self.seeds)
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return [self[each] for each in range(*index.indices(len(self)))]
+        if index in self._changed:
+            return self._changed[index]
+        return replace(self._config, seed=int(self.seeds[index]))
+
+    def __setitem__(self, index: Any, config: Any) -> None:
+        self._changed[index] = config
+
+    def __delitem__(self, index: Any) -> None:
+        raise TypeError("lanes cannot be taken away")
+
+    def insert(self, index: int, value: Config) -> None:  # noqa: ARG002
+        """Refused. Raises `TypeError`."""
+        raise TypeError("lanes cannot be added")
+
+
 class Lanes:
     """Lanes side by side: configurations of one road size, and the state of each."""
 
     def __init__(self, configs: Sequence[Config], after: After) -> None:
         """Room for every lane; no road is begun yet. `after`: what follows an end."""
-        self.configs = list(configs)
+        self.configs: MutableSequence[Config] = (
+            configs if isinstance(configs, SeededConfigs) else list(configs)
+        )
         self.layout = Layout.of(configs[0].columns, configs[0].rows)
         self.after: After = after
         count = len(self.configs)
         blocks = -(-count // LANES)
         self._state: Words = np.zeros((blocks, self.layout.words * PLANES * LANES), np.uint64)
         self._lanes: Words = np.zeros((blocks, LANE_PLANES * LANES), np.uint64)
-        padded = [*self.configs, *[self.configs[-1]] * (blocks * LANES - count)]
+        seeded = isinstance(configs, SeededConfigs)
+        padded = [configs[0]] if seeded else [*self.configs, *[self.configs[-1]] * (blocks * LANES - count)]
         self._wholes = np.array(
             [
                 (
@@ -133,14 +165,19 @@ class Lanes:
                 for config in padded
             ]
         )
+        self._charges = np.array([astuple(weights(config)) for config in padded], np.int64)
+        if isinstance(configs, SeededConfigs):
+            for name in ("_wholes", "_shares", "_charges"):
+                setattr(self, name, np.repeat(getattr(self, name), blocks * LANES, axis=0))
+            self._wholes[:, SEED] = np.pad(configs.seeds, (0, blocks * LANES - count), "edge")
         for plane, holds in (
             (SWEPT, [config.collision == "swept" for config in padded]),
             # Who brakes in every tick; where it is drawn, the tick draws it (`ATTENTIVE`).
             (BRAKING, [config.attentive == 1.0 for config in padded]),
             (WATCHING, [config.repetition and config.certain for config in padded]),
         ):
-            self._plane(plane)[...] = np.where(holds, _ALL, np.uint64(0)).reshape(-1, LANES)
-        self._charges = np.array([astuple(weights(config)) for config in padded], np.int64)
+            flags = np.where(holds, _ALL, np.uint64(0))
+            self._plane(plane)[...] = flags if seeded else flags.reshape(-1, LANES)
         self._ticks = np.zeros(blocks * LANES, np.int64)
         self._counts = np.zeros((_COUNTERS, blocks * LANES), np.int64)
 

@@ -46,7 +46,7 @@ def closest_call(states: Iterable[SimState]) -> ClosestCall | None:
     """The closest call of the first ego in states one tick apart, the earliest of equals; None if none."""
     least: ClosestCall | None = None
     for before, after in pairwise(states):
-        for id, own, other in _encounters(before.world, after.world):
+        for id, own, other in encounters(before.world, after.world):
             gap_m = round(least_gap(own, other) * before.config.cell_m, 6)
             if gap_m > 0 and (least is None or gap_m < least.gap_m):
                 ticks = ticks_to_contact(own, other)
@@ -55,7 +55,7 @@ def closest_call(states: Iterable[SimState]) -> ClosestCall | None:
     return least
 
 
-def _encounters(before: World, after: World) -> Iterator[tuple[str, Path, Path]]:
+def encounters(before: World, after: World) -> Iterator[tuple[str, Path, Path]]:
     """What moved near the first ego in a tick: its id, the ego's way and its own."""
     same_drive = (before.episode, before.episode_start) == (after.episode, after.episode_start)
     if before.ended is not None or not same_drive or before.road != after.road:

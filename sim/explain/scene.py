@@ -11,16 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
-from typing import Final
 
 from sim.config import Config
 from sim.forecast import predict
 from sim.perceive import Percept
 from sim.types import Cell, Kind, Move
-
-CERTAIN: Final[Mapping[str, float]] = MappingProxyType({})
-"""The likelihoods of sensors that are always sure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,8 +66,11 @@ class Scene:
         return tuple(thing for thing in self.seen if kind is None or thing.kind is kind)
 
 
-def describe_percept(percept: Percept, config: Config, likelihoods: Mapping[str, float] = CERTAIN) -> Scene:
-    """What is seen. `likelihoods`: by id, of the things of which the sensors are not sure."""
+def describe_percept(
+    percept: Percept, config: Config, likelihoods: Mapping[str, float] | None = None
+) -> Scene:
+    """What is seen. `likelihoods`: by id, in place of those of the percept."""
+    likelihoods = percept.likelihoods if likelihoods is None else likelihoods
     road = percept.road
     column, row = road.cell(percept.ego)
     reach = min(row, config.visible_rows)

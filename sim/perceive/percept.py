@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import dataclass, field, replace
+from typing import Final, NamedTuple
 
 from sim.fast_replace import field_setter
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR
@@ -13,6 +13,13 @@ from sim.types import Kind, Move
 from sim.world import Thing
 from sim.world.boards import Boards
 from sim.world.grid import Board, Road, board_of
+
+CERTAIN: Final[Mapping[str, float]] = {}
+"""The likelihoods of sensors that are always sure."""
+
+
+DOUBTS: Final = (0.05, 0.1, 0.2, 0.35)
+"""Levels of doubt: cells that hold something fixed with at least this likelihood, and less than is heeded."""
 
 
 class OtherEgo(NamedTuple):
@@ -56,6 +63,10 @@ class Percept:
     """how the others move (`sim.rules.behaviour`)"""
     egos: tuple[OtherEgo, ...] = ()
     """the other egos, in the order of their ids"""
+    likelihoods: Mapping[str, float] = field(default_factory=lambda: CERTAIN)
+    """how likely each thing is to be there, by id, 0 to 1; what is left out is certain"""
+    doubtful: tuple[Board, ...] = ()
+    """cells that may hold something fixed that is not among the hazards, one board for each of `DOUBTS`"""
 
     @property
     def potholes(self) -> Board:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 
 from sim.config import Config
 from sim.fast_replace import fast_constructor
-from sim.perceive.percept import OtherEgo, Percept
+from sim.perceive.percept import CERTAIN, OtherEgo, Percept
 from sim.perceive.sensor import NO_BELIEF, Belief
 from sim.rules.traffic_cache import cached_reactions
 from sim.types import Move, ego_id
@@ -31,6 +31,7 @@ _seen = fast_constructor(
     "dynamics",
     "behaviour",
     "egos",
+    "likelihoods",
 )
 _NOTHING: dict[int, Move] = {}
 
@@ -65,6 +66,7 @@ def perceive_truth(
         config.dynamics,
         config.behaviour,
         () if len(world.avs) == 1 else other_egos(world, ego, announced, parked),
+        CERTAIN,
     )
 
 

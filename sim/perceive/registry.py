@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from sim import sensor_names
 from sim.config import Config
+from sim.perceive.devices import GRID_SENSORS
 from sim.perceive.percept import Percept
 from sim.perceive.perfect import PerfectSensor, other_egos
 from sim.perceive.sensor import NO_BELIEF, Belief, Sensor
@@ -53,5 +54,6 @@ def perceive(
     return replace(seen[0], egos=other_egos(world, ego, announced, parked)), seen[1]
 
 
-for sensor in (PerfectSensor(),):
+_BUILT_IN: tuple[Sensor, ...] = (PerfectSensor(), *GRID_SENSORS)
+for sensor in _BUILT_IN:
     register_sensor(sensor)

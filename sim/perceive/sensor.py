@@ -22,11 +22,17 @@ class Sensor(Protocol):
     session replays tick by tick, and a look can be repeated on a changed road.
     """
 
-    name: str
-    stateless: bool
-    """whether its belief is always `NO_BELIEF`"""
-    faithful: bool
-    """whether the percept is always the truth"""
+    @property
+    def name(self) -> str:
+        """What it is chosen by."""
+
+    @property
+    def stateless(self) -> bool:
+        """Whether its belief is always `NO_BELIEF`."""
+
+    @property
+    def faithful(self) -> bool:
+        """Whether the percept is always the truth."""
 
     def perceive(self, world: World, config: Config, ego: int, belief: Belief) -> tuple[Percept, Belief]:
         """What the vehicle number `ego` (from 0) sees in this tick, and the belief for the next one.

@@ -21,8 +21,8 @@ class Line(Protocol):
     """A line of the log."""
 
     @property
-    def tick(self) -> int:
-        """The tick of the event."""
+    def tick(self) -> int | str:
+        """The tick of the event, or the ticks."""
 
     @property
     def type(self) -> str:

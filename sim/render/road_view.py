@@ -12,8 +12,10 @@ from sim.render.camera import Camera, camera_on
 from sim.render.ground import draw_ground
 from sim.render.hud import draw_figures, draw_verdict
 from sim.render.motion import Pose, glide_start, poses
+from sim.render.sensed_marks import draw_marks, marks_of
 from sim.render.sprites import av_sprite, sprite_of
 from sim.render.text import render_text
+from sim.render.weather import draw_weather
 from sim.rules.collision_geometry import SIZES
 from sim.state import SimState
 from sim.types import Kind, Outcome
@@ -53,6 +55,8 @@ def draw_road(
         for pose in (*seen.things, seen.av):
             if pose.thing.kind is Kind.AV:
                 _draw_number(picture, camera, pose)
+    draw_weather(picture, state.config, camera.cell_px, world.tick, phase)
+    draw_marks(picture, camera, marks_of(state, ego))
     draw_figures(picture, state, camera.cell_px, ego=ego)
     draw_verdict(picture, state, camera.cell_px)
     return picture

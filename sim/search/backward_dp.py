@@ -157,6 +157,8 @@ def _sweep(forecast: Forecast, terrain: TimeExpandedGraph, horizon: int) -> NDAr
     charges += weights.fixed * fields([terrain.near_fixed])
     for distance in range(len(layers[0].near)):
         charges += weights.mover * fields([layer.near[distance] for layer in layers])
+    for doubtful in terrain.doubtful:
+        charges += weights.doubt * fields([doubtful])
     charges[fields([each.blocked for each in masks])] = FAR
     entering[inside] = charges
     no_left, no_right, no_forward_left, no_forward_right = (

@@ -74,4 +74,5 @@ def _follows(forecast: Forecast, earlier: Forecast, ahead: int) -> bool:
         and forecast.slices[0] == earlier.slices[ahead]
         and forecast.slices.marked(0) == earlier.slices.marked(ahead)
         and forecast.percept.behaviour == earlier.percept.behaviour
+        and forecast.percept.doubtful == earlier.percept.doubtful
     )

@@ -5,6 +5,7 @@ A step that arrives in a cell at a tick costs
     tick + (sideways | diagonal | stay, by the move)
          + fixed · [a pothole or barrier is in one of the eight cells around]
          + mover · Σ_{d = 1 … buffer} [a mover is then expected within d cells, diagonals counted as one]
+         + doubt · [levels of doubt that the cell reaches: something fixed may be in it, and is not heeded]
 
 The balance is mostly time, and a little is given for room: three steps away from a mover are worth a tick and
 the move aside. `fastest` gives nothing. What every preference changes, measured, is the second table of
@@ -34,6 +35,8 @@ class Weights:
     mover: int
     buffer: int
     """cells around a mover that are charged for"""
+    doubt: int
+    """for each level of `Percept.doubtful`; with the perfect sensor there are none"""
 
     def of(self, move: Move) -> int:
         """What a move costs by itself, wherever it leads."""
@@ -50,19 +53,19 @@ class Weights:
         )
 
 
-_LATEST = Weights(tick=60, sideways=12, diagonal=9, stay=4, fixed=2, mover=24, buffer=0)
+_LATEST = Weights(tick=60, sideways=12, diagonal=9, stay=4, fixed=2, mover=24, buffer=0, doubt=40)
 BALANCED: Final[dict[int, Weights]] = {
-    1: Weights(tick=60, sideways=4, diagonal=3, stay=2, fixed=1, mover=2, buffer=0),
+    1: Weights(tick=60, sideways=4, diagonal=3, stay=2, fixed=1, mover=2, buffer=0, doubt=40),
     2: _LATEST,
     3: _LATEST,
 }
 """Without preferences, by version of the rules; `buffer` is added to the configuration's `safety_buffer`."""
 
 SHIFTS: Final[dict[Preference, Weights]] = {
-    "avoid_potholes": Weights(tick=0, sideways=0, diagonal=0, stay=0, fixed=40, mover=0, buffer=0),
-    "smooth_ride": Weights(tick=0, sideways=40, diagonal=30, stay=20, fixed=0, mover=0, buffer=0),
-    "fastest": Weights(tick=10_000, sideways=0, diagonal=0, stay=0, fixed=0, mover=0, buffer=0),
-    "cautious": Weights(tick=0, sideways=0, diagonal=0, stay=0, fixed=8, mover=30, buffer=1),
+    "avoid_potholes": Weights(tick=0, sideways=0, diagonal=0, stay=0, fixed=40, mover=0, buffer=0, doubt=40),
+    "smooth_ride": Weights(tick=0, sideways=40, diagonal=30, stay=20, fixed=0, mover=0, buffer=0, doubt=0),
+    "fastest": Weights(tick=10_000, sideways=0, diagonal=0, stay=0, fixed=0, mover=0, buffer=0, doubt=0),
+    "cautious": Weights(tick=0, sideways=0, diagonal=0, stay=0, fixed=8, mover=30, buffer=1, doubt=120),
 }
 """What each preference adds to every charge."""
 
@@ -78,4 +81,5 @@ def weights(config: Config) -> Weights:
         fixed=sum(part.fixed for part in parts),
         mover=sum(part.mover for part in parts),
         buffer=config.safety_buffer + sum(part.buffer for part in parts),
+        doubt=sum(part.doubt for part in parts),
     )

@@ -49,6 +49,7 @@ class TimeExpandedGraph:
         self._fixed = forecast.fixed
         self._cells = forecast.road.columns * forecast.road.rows
         self.near_fixed = around(self._fixed, forecast.road) if weights.fixed else 0
+        self.doubtful = forecast.percept.doubtful if weights.doubt else ()
         self._layers: list[Layer] = []
         self._costs = [step.cost for step in self.moves]
         ahead = min([self._costs[place] for place in _ON])
@@ -69,6 +70,9 @@ class TimeExpandedGraph:
         for near in self.layer(ahead).near:
             if near >> cell & 1:
                 total += self.weights.mover
+        for doubtful in self.doubtful:
+            if doubtful >> cell & 1:
+                total += self.weights.doubt
         return total
 
     def steps(self, state: State) -> list[tuple[int, State, int]]:
@@ -82,7 +86,8 @@ class TimeExpandedGraph:
         low = cell - self._window if cell > self._window else 0
         later, fixed = state - cell + self._cells + low, self.near_fixed >> low
         near = [board >> low for board in around_movers]
-        charge_fixed, charge_mover = self.weights.fixed, self.weights.mover
+        doubtful = [board >> low for board in self.doubtful]
+        charge_fixed, charge_mover, charge_doubt = self.weights.fixed, self.weights.mover, self.weights.doubt
         found = []
         for move, end in self._free_ends(obstacles, cell, low):
             cost = costs[move]
@@ -91,6 +96,9 @@ class TimeExpandedGraph:
             for board in near:
                 if board >> end & 1:
                     cost += charge_mover
+            for board in doubtful:
+                if board >> end & 1:
+                    cost += charge_doubt
             found.append((move, later + end, cost))
         return found
 

@@ -26,6 +26,7 @@ _SET_AFTER = (
     "courtesy",
     "attentive",
     "safety_buffer",
+    "detection_sensitivity",
 )
 
 
@@ -94,4 +95,6 @@ def _scenario(config: Config) -> Scenario:
         **counts,
         planner=None if config.planner == Config().planner else config.planner,  # type: ignore[arg-type]
         sensor=None if config.sensor == DEFAULT_SENSOR else config.sensor,  # type: ignore[arg-type]
+        weather=None if config.weather == "clear" else config.weather,
+        time_of_day=None if config.time_of_day == "day" else config.time_of_day,
     )

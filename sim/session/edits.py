@@ -13,6 +13,7 @@ from typing import Final
 from sim.actions import (
     Add,
     Adjust,
+    Cancel,
     Copy,
     Drive,
     MoveThings,
@@ -25,6 +26,7 @@ from sim.actions import (
     SetCount,
     SetMode,
     Swap,
+    Trigger,
     Where,
     WorldAction,
 )
@@ -39,6 +41,7 @@ from sim.session.pick import pick_things, placeable, random_draws
 from sim.session.put import cells_for, held_now, no_room, with_world
 from sim.session.rearrange import rearrange
 from sim.session.resize import keeps_things, resize
+from sim.session.rules_made import cancel, make
 from sim.session.scenario import config_of_scenario, find_unavailable
 from sim.session.settings import NEEDS_A_NEW_ROAD, add_preference, change_setting, vehicles_for
 from sim.state import SimState, next_episode, reconfigure, restart_episode
@@ -98,6 +101,10 @@ def _apply(state: SimState, action: WorldAction) -> Applied:
             return Applied(action, replace(state, config=add_preference(state.config, action.preference)))
         case Set() | Adjust():
             return _set(state, action)
+        case Trigger():
+            return make(state, action, apply)
+        case Cancel():
+            return cancel(state, action)
 
 
 def _ego(state: SimState, action: SetMode | Drive) -> Ego:

@@ -1,7 +1,7 @@
 """From a scenario's words to a configuration: road presets and traffic levels, one table each.
 
-A scenario renews what it can name (road, layout, traffic, counts, planner, sensor) and keeps the rest:
-the grid, the clock, the seed.
+A scenario renews what it can name (road, layout, traffic, counts, planner, sensor, weather, time of day) and
+keeps the rest: the grid, the clock, the seed.
 """
 
 from __future__ import annotations
@@ -48,12 +48,6 @@ _PLANNER: Final = Config().planner
 
 def find_unavailable(scenario: Scenario) -> Problem | None:
     """The first thing a scenario names that this version lacks; None if it has all."""
-    if scenario.weather not in (None, "clear"):
-        return Problem("weather", "weather_not_available", value=scenario.weather)
-    if scenario.time_of_day not in (None, "day"):
-        return Problem("time_of_day", "time_of_day_not_available", value=scenario.time_of_day)
-    if scenario.sensor is not None and scenario.sensor not in sensor_names.names():
-        return Problem("sensor", "sensor_not_available", value=scenario.sensor)
     if scenario.planner in PROMISED:
         return Problem("planner", "planner_not_available", value=scenario.planner)
     if scenario.avs:
@@ -94,4 +88,6 @@ def config_of_scenario(config: Config, scenario: Scenario) -> Config:
         **counts,
         planner=scenario.planner or default_under(config.rules, "planner", _PLANNER),
         sensor=scenario.sensor or sensor_names.DEFAULT_SENSOR,
+        weather=scenario.weather or "clear",
+        time_of_day=scenario.time_of_day or "day",
     )

@@ -17,6 +17,7 @@ from hashlib import blake2b
 from operator import attrgetter
 from typing import Any, TypeVar
 
+from sim.actions import Trigger
 from sim.config import COUNTS, Config
 from sim.ego import Ego
 from sim.episode_record import EpisodeRecord, sake_of
@@ -24,6 +25,7 @@ from sim.metrics import Metrics
 from sim.perceive import NO_BELIEF
 from sim.repetition import Situation, Watch
 from sim.state import FIRST, SimState
+from sim.triggers import NO_TRIGGERS, StandingTrigger, Triggers
 from sim.types import MARKED, Kind, Mode, Move, Outcome
 from sim.world import Cause, World
 from sim.world.boards import Boards
@@ -32,7 +34,7 @@ from sim.world.grid import Road
 Part = TypeVar("Part")
 
 _CONFIG = tuple(field.name for field in fields(Config))
-_LATER = {*COUNTS.values(), "dynamics", "behaviour"}
+_LATER = {*COUNTS.values(), "dynamics", "behaviour", "weather", "time_of_day", "detection_sensitivity"}
 """Fields of configurations that came later; where one is missing, it is at its default."""
 _ALWAYS = {*_CONFIG} - _LATER
 _METRICS = tuple(field.name for field in fields(Metrics))
@@ -70,6 +72,13 @@ class Packer:
         self._worlds, self._runs = Pool(), Pool()
         self._digests = blake2b(digest_size=16)
         self._planners: set[str] = set()
+        self._triggers = Pool()
+
+    @property
+    def triggers(self) -> list[Trigger]:
+        """The rules of the packed states, by number; whoever packs writes them, as any other action."""
+        rules: list[Trigger] = self._triggers.values
+        return rules
 
     def run(self, state: SimState) -> int:
         """Adds a state and returns its number. Raises `BeliefError`."""
@@ -100,7 +109,17 @@ class Packer:
         parts = [self.config(state.config), self._world(state.world), mode, queue, metrics, state.edits]
         parts += [fault, record, watch]
         # One ego with the configuration's planner is nearly all there is, and all there was once.
+        if state.triggers is not NO_TRIGGERS:
+            return [*parts, planner, others, self._rules(state.triggers)]
         return [*parts, planner, others] if others or planner is not None else parts
+
+    def _rules(self, triggers: Triggers) -> list[Any]:
+        standing = [
+            [self._triggers.number(rule.trigger, lambda each: each), rule.number, rule.since, rule.held]
+            + [rule.fired, rule.failed]
+            for rule in triggers.standing
+        ]
+        return [triggers.made, standing]
 
     def _ego(self, ego: Ego, config: Config) -> list[Any]:
         if ego.belief is not NO_BELIEF:
@@ -158,7 +177,8 @@ class Unpacker:
     `ValueError` if the digest of the worlds differs from the saved one.
     """
 
-    def __init__(self, packed: Mapping[str, Any]) -> None:
+    def __init__(self, packed: Mapping[str, Any], triggers: Sequence[Trigger] = ()) -> None:
+        """`triggers`: those of the `Packer`, by number."""
         self.configs = [_read_config(parts) for parts in packed["configs"]]
         tables = [dict(zip(cells, ids, strict=True)) for cells, ids in packed["tables"]]
         numbered = [{Kind(kind): number for kind, number in pairs} for pairs in packed["numbered"]]
@@ -169,7 +189,7 @@ class Unpacker:
             digests.update(worlds[-1].digest().encode())
         if digests.hexdigest() != packed["digest"]:
             raise ValueError("the worlds are not those that were written")
-        self.runs = [_run(parts, self.configs, worlds) for parts in packed["runs"]]
+        self.runs = [_run(parts, self.configs, worlds, triggers) for parts in packed["runs"]]
 
 
 def _boards(world: World) -> tuple[int, ...]:
@@ -244,12 +264,26 @@ def _read_watch(parts: Sequence[Any]) -> Watch:
     return Watch(Situation(cell, beat, right, left, tuple(marked)), ticks, span)
 
 
-def _run(parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World]) -> SimState:
+def _run(
+    parts: Sequence[Any], configs: Sequence[Config], worlds: Sequence[World], triggers: Sequence[Trigger]
+) -> SimState:
     config, world, mode, queue, metrics, edits, fault, record, watch, *more = parts
-    planner, others = more if more else (None, [])
+    planner, others, *rules = more if more else (None, [])
     first = [FIRST, planner, mode, queue, metrics, fault, record, watch]
     egos = [_read_ego(each, worlds) for each in (first, *others)]
-    return SimState(configs[config], worlds[world], {ego.id: ego for ego in egos}, edits)
+    standing = _read_rules(rules[0], triggers) if rules else NO_TRIGGERS
+    return SimState(configs[config], worlds[world], {ego.id: ego for ego in egos}, edits, standing)
+
+
+def _read_rules(parts: Sequence[Any], triggers: Sequence[Trigger]) -> Triggers:
+    made, standing = parts
+    return Triggers(
+        made,
+        tuple(
+            StandingTrigger(number, triggers[which], since, held, fired, failed)
+            for which, number, since, held, fired, failed in standing
+        ),
+    )
 
 
 def _read_ego(parts: Sequence[Any], worlds: Sequence[World]) -> Ego:

@@ -13,7 +13,6 @@ from sim.actions import Adjust, Preference, Set, Traffic, Wish
 from sim.config import COUNTS, RANGES, Config, ConfigError
 from sim.planner_names import PROMISED
 from sim.rules.dynamics import DEFAULT_DYNAMICS
-from sim.sensor_names import DEFAULT_SENSOR
 from sim.session.errors import EditError
 from sim.session.scenario import TRAFFIC
 from sim.types import KINDS, Kind
@@ -27,18 +26,16 @@ STEPS: Final[dict[str, float]] = {
     "courtesy": 0.1,
     "attentive": 0.1,
     "safety_buffer": 1,
+    "detection_sensitivity": 0.1,
     "step_seconds": 0.1,
     "columns": 1,
     "rows": 5,
     "seed": 1,
 }
 """How far "up" and "down" go, for every number that can be set."""
-AS_IT_IS: Final = {
-    "sensor": DEFAULT_SENSOR,
-    "weather": "clear",
-    "time_of_day": "day",
-    "dynamics": DEFAULT_DYNAMICS,
-}
+CHOSEN: Final = frozenset(("planner", "sensor", "weather", "time_of_day"))
+"""Settings with words for values, which hold from the next decision on."""
+AS_IT_IS: Final = {"dynamics": DEFAULT_DYNAMICS}
 """Settings that this version has in one form only."""
 _COUNTS: Final = {
     **{probability: name for kind, name in COUNTS.items() if (probability := KINDS[kind].probability)},
@@ -55,7 +52,7 @@ def is_available(action: Set | Adjust) -> bool:
         return isinstance(action, Set) and action.value == AS_IT_IS[name]
     if name == "planner":
         return isinstance(action, Adjust) or action.value not in PROMISED
-    return name in STEPS or name == "traffic"
+    return name in STEPS or name in CHOSEN or name == "traffic"
 
 
 def change_setting(config: Config, action: Set | Adjust) -> Config:

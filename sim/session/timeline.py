@@ -10,19 +10,21 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections import deque
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from sim.actions import WorldAction
 from sim.config import Config
 from sim.decide import announced_before, decide_each, sense
 from sim.events import Event, EventType
+from sim.perceive import sensor_named
 from sim.plan import Decision, traits_of
 from sim.plan.safe_planning import failed_decision, is_foreign, recorded_decision
 from sim.session.edits import Applied, apply
 from sim.session.move_log import MoveLog
 from sim.session.packed_state import PackedState, pack
 from sim.session.persistent_list import PersistentList
+from sim.session.triggers import fire
 from sim.state import FIRST, EgoStep, SimState, StepResult
 from sim.transition import step
 from sim.types import Move
@@ -38,6 +40,9 @@ ACTION_WORK = 4
 
 THINGS_AN_ACTION = 10
 """Number of things on the road that adds one replayed tick to the work of an action."""
+
+LOOK_WORK = 8
+"""Work of a look whose belief is needed later, in replayed ticks: a replay has to look again."""
 
 ROAD_WORK, ROAD_CELLS = 4, 80
 """Work of generating a road in replayed ticks, and the number of cells that adds one more."""
@@ -172,14 +177,17 @@ class Timeline:
         twin._track = self._track.copy()
         return twin
 
-    def advance(self, decided: Decision | None = None) -> StepResult:
-        """One tick on, with what was `decided` for it elsewhere, if it was.
+    def advance(self, decided: Decision | Mapping[str, Decision] | None = None) -> StepResult:
+        """One tick on, with what was `decided` for it elsewhere, if it was; of several egos by id.
 
         Raises `PlannerSilentError`; nothing has then changed. A planner that did not answer in time may
         answer when the tick is run again, so a tick without its answer must not become part of what is
         replayed.
         """
-        tick = _answered(step(self.state) if decided is None else step(self.state, {decided.av: decided}))
+        if isinstance(decided, Decision):
+            decided = {decided.av: decided}
+        tick = _answered(step(self.state) if decided is None else step(self.state, decided))
+        tick = _with_rules(self.state, tick)
         self._recent.append(self.state)
         self._went_on(tick, len(self.entries))
         return tick
@@ -219,10 +227,10 @@ class Timeline:
             if self.tick == present:
                 return
             if self.tick < since:
-                self.state = self._track.after(self.state)
+                self.state = _after_rules(self.state, self._track.after(self.state))
                 self._worked(1, 1, position)
             else:
-                self._went_on(_answered(step(self.state)), position)
+                self._went_on(_with_rules(self.state, _answered(step(self.state))), position)
 
     def rewind(self, tick: int) -> None:
         """Make a past tick the present; what was said or happened after it is gone. Raises `IndexError`."""
@@ -273,7 +281,7 @@ class Timeline:
             state, position, _ = self._apply_due(state, position)
             if state.world.tick >= first:
                 yield state
-            state = track.after(state)
+            state = _after_rules(state, track.after(state))
 
     def decision(self, tick: int, ego: str | None = None) -> Decision | None:
         """The decision taken at a tick (None while a result stood), derived anew. Raises `IndexError`."""
@@ -300,7 +308,7 @@ class Timeline:
 
     def led_to(self, state: SimState) -> StepResult:
         """The tick that a state of this timeline led to."""
-        return step(state, self._noted(state))
+        return _with_rules(state, step(state, self._noted(state)))
 
     def _noted(self, state: SimState) -> dict[str, Decision]:
         """What planners of other packages decided in a past state, by ego id, where that is noted."""
@@ -331,7 +339,10 @@ class Timeline:
             self._track.note(tick.decision)
         else:
             self._track.note(*[steps[id].decision if id in steps else None for id in egos])
-        self._worked(_tick_work(tick.state), 1 + _road_work(tick.state, tick.events), entries)
+        fired = ACTION_WORK * sum(event.type is EventType.TRIGGERED for event in tick.events)
+        look = _look_work(tick.state)
+        again = look + 1 + fired + _road_work(tick.state, tick.events)
+        self._worked(look + _tick_work(tick.state), again, entries)
 
     def _worked(self, work: int, again: int, entries: int) -> None:
         """Adds up the work done and `again`, its cost in a replay; takes a snapshot where one is due."""
@@ -393,11 +404,28 @@ def _answered(tick: StepResult) -> StepResult:
     return tick
 
 
+def _with_rules(before: SimState, tick: StepResult) -> StepResult:
+    """A tick with the rules that were due at its end done."""
+    if not tick.state.triggers:
+        return tick
+    state, events = fire(before, tick.state)
+    return replace(tick, state=state, events=(*tick.events, *events))
+
+
+def _after_rules(before: SimState, after: SimState) -> SimState:
+    """The state after a tick with the rules that were due at its end done."""
+    return fire(before, after)[0] if after.triggers else after
+
+
 def _tick_work(state: SimState) -> int:
     egos = state.egos
     if len(egos) == 1:
         return traits_of(state.ego().planner or state.config.planner).work
     return max(traits_of(ego.planner or state.config.planner).work for ego in egos.values())
+
+
+def _look_work(state: SimState) -> int:
+    return 0 if sensor_named(state.config.sensor).stateless else LOOK_WORK * len(state.egos)
 
 
 def _action_work(applied: Applied) -> int:

@@ -53,7 +53,9 @@ def test_a_model_is_offered_no_new_action_by_default() -> None:
 
 def test_questions_and_phrases_stand_in_no_what_if() -> None:
     for name, traits in BY_VERB.items():
-        assert (traits.what_if is WhatIf.INVALID) == (name in ("ask", "chat", "teach", "forget"))
+        assert (traits.what_if is WhatIf.INVALID) == (
+            name in ("ask", "chat", "teach", "forget", "trigger", "cancel")
+        )
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ async (cell) => {
 """
 
 
-CALLED = {"vehicle": "car", "pedestrian": "walker"}
+CALLED = {"vehicle": "car", "pedestrian": "pedestrian"}
 """What the page calls kinds of things."""
 
 

@@ -54,6 +54,33 @@ def test_axe_finds_nothing_at_the_end_of_an_episode(
     assert violations(visitor) == []
 
 
+@pytest.mark.parametrize(
+    "size", [(1366, 768), (844, 390), (720, 450)], ids=lambda size: f"{size[0]}x{size[1]}"
+)
+@pytest.mark.parametrize("locale", ["en-GB", "de-DE"])
+def test_axe_finds_nothing_in_any_panel_on_a_low_screen(
+    visit: Visit, size: tuple[int, int], locale: str
+) -> None:
+    visitor = visit(viewport={"width": size[0], "height": size[1]}, locale=locale, reduced_motion="reduce")
+    states = {"first": violations(visitor)}
+    for name in ("plan", "occupancy", "metrics", "log"):
+        tab = f".tab[data-tab={name}]" if size[0] < 960 else f"[data-enlarge={name}]"
+        visitor.page.locator(tab).click()
+        visitor.drawn()
+        states[name] = violations(visitor)
+        if size[0] >= 960:
+            visitor.page.keyboard.press("Escape")
+            visitor.drawn()
+    visitor.page.locator("#planner-menu .menu-button").click()
+    states["planner"] = violations(visitor)
+    visitor.page.keyboard.press("Escape")
+    visitor.page.locator("#session-menu .menu-button").click()
+    visitor.page.locator("#session-menu [data-item=settings]").click()
+    expect(visitor.page.locator("#settings input").first).to_be_visible()
+    states["settings"] = violations(visitor)
+    assert {name: found for name, found in states.items() if found} == {}
+
+
 def test_the_whole_first_minute_without_a_mouse(visit: Visit) -> None:
     visitor = visit(running=True)
     session = visitor.session

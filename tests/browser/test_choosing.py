@@ -8,33 +8,47 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.browser.conftest import Visit
+from tests.browser.visitor import Visitor
 
-DRIVERS = ["Rules", "Priority rules of the source", "A*", "Dijkstra", "Quickest", "You"]
+DRIVERS = ["Rules", "Priority rules", "A*", "Dijkstra", "Quickest", "You"]
 FAMILIES = ["walls with gaps", "narrow streets", "dead ends", "crossing traffic", "a maze"]
 
 
-def test_the_driver_is_chosen_from_all_planners_by_name(visit: Visit) -> None:
+def choose(visitor: Visitor, name: str) -> None:
+    """Open the planner's picker and press a name in it."""
+    visitor.page.locator("#planner-menu .menu-button").click()
+    visitor.page.locator("#planner-menu .menu-item").filter(
+        has=visitor.page.get_by_text(name, exact=True)
+    ).click()
+    expect(visitor.page.locator("#planner-menu .menu-list")).to_be_hidden()
+
+
+def test_the_planner_is_chosen_from_all_by_name_with_a_line_about_each(visit: Visit) -> None:
     visitor = visit()
-    driver = visitor.page.get_by_role("combobox", name="Driver")
-    expect(driver.locator("option")).to_have_text(DRIVERS)
-    expect(driver).to_have_value("rules")
-    driver.select_option("A*")
-    expect(visitor.last_exchange("Driver: A*").locator(".reply")).to_contain_text("Rules → A*")
+    picker = visitor.page.locator("#planner-menu .menu-button")
+    expect(picker).to_have_text("Rules")
+    picker.click()
+    items = visitor.page.locator("#planner-menu [role=menuitemradio]")
+    assert [text.splitlines()[0].strip() for text in items.all_inner_texts()] == DRIVERS
+    assert all(line.strip() for line in items.locator(".menu-note").all_inner_texts())
+    visitor.page.keyboard.press("Escape")
+    choose(visitor, "A*")
+    expect(visitor.last_exchange("Planner: A*").locator(".reply")).to_contain_text("Rules → A*")
     assert visitor.script.state()["planner"] == "astar"
     visitor.say("let me drive")
-    expect(driver).to_have_value("manual")
-    driver.select_option("Quickest")
-    expect(driver).to_have_value("bfs")
-    expect(visitor.last_exchange("Driver: Quickest").locator(".reply")).to_contain_text("A* → Quickest")
+    expect(picker).to_have_text("You")
+    choose(visitor, "Quickest")
+    expect(picker).to_have_text("Quickest")
+    expect(visitor.last_exchange("Planner: Quickest").locator(".reply")).to_contain_text("A* → Quickest")
     state = visitor.script.state()
     assert (state["mode"], state["planner"]) == ("auto", "bfs")
 
 
 @pytest.mark.parametrize("width", [960, 1440])
-def test_the_longest_name_of_a_driver_leaves_the_other_figures_their_room(visit: Visit, width: int) -> None:
+def test_the_longest_name_of_a_planner_leaves_the_other_figures_their_room(visit: Visit, width: int) -> None:
     visitor = visit(viewport={"width": width, "height": 900})
-    visitor.page.get_by_role("combobox", name="Driver").select_option("Priority rules of the source")
-    expect(visitor.page.get_by_role("combobox", name="Driver")).to_have_value("priority")
+    choose(visitor, "Priority rules")
+    expect(visitor.page.locator("#planner-menu .menu-button")).to_have_text("Priority rules")
     # All boxes are read at once: between two questions the page may be laid out anew.
     ends = visitor.page.locator(".status .figure").evaluate_all(
         "figures => figures.map(f => f.getBoundingClientRect()).map(box => [box.left, box.right])"

@@ -185,7 +185,7 @@ def test_arrows_drive_where_a_person_drives(road: Road) -> None:
     road.page.get_by_role("group", name="Drive").get_by_role("button", name="right", exact=True).click()
     expect(shown).to_have_text("4")
     assert road.ego == [column + 1, row - 3]
-    road.page.get_by_role("button", name="Let it drive itself").click()
+    road.page.locator(".drive-end").click()
     expect(road.page.locator(".drive-pad")).to_be_hidden()
     assert road.script.state()["mode"] == "auto"
 

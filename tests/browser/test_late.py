@@ -76,7 +76,7 @@ def test_a_jump_waits_for_the_part_of_the_run_that_is_not_known_yet(visit: Visit
     visitor.wait_live()
     jumps = visitor.page.get_by_role("combobox", name="Jump between")
     jumps.select_option("command")
-    visitor.page.get_by_role("button", name="Previous mark").click()
+    visitor.page.get_by_role("button", name="Previous event").click()
     visitor.drawn()
     expect(figure(visitor)).to_have_text(str(TICKS))
     expect(visitor.page.locator(".notice-box")).to_be_hidden()

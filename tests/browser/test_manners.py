@@ -70,7 +70,7 @@ def test_a_chosen_theme_holds_against_the_systems_and_next_time(visit: Visit) ->
     choose_theme(visitor, "Light")
     page.emulate_media(color_scheme="dark")
     until(page, f"(light) => ({GROUND})() === light", light)
-    choose_theme(visitor, "As the system")
+    choose_theme(visitor, "Match system")
     until(page, f"(dark) => ({GROUND})() === dark", dark)
 
 
@@ -140,12 +140,12 @@ def test_on_a_phone_nothing_sticks_out_and_every_target_can_be_hit(
     assert not wrong, wrong
 
 
-def test_fine_pointers_get_targets_of_24(visit: Visit) -> None:
+def test_fine_pointers_get_targets_of_28(visit: Visit) -> None:
     visitor = visit()
     visitor.pause()
     visitor.say("add five potholes")
     visitor.say("why did you do that?")
-    assert visitor.page.evaluate(SMALL_TARGETS, 24) == []
+    assert visitor.page.evaluate(SMALL_TARGETS, 28) == []
 
 
 def test_the_keyboard_on_a_phones_screen_hides_neither_box_nor_reply(visit: Visit) -> None:
@@ -174,7 +174,7 @@ def test_enlarged_to_twice_its_size_everything_can_be_reached(visit: Visit) -> N
         expect(button).to_be_in_viewport(ratio=0.9)
         button.click(trial=True)
     for part in ("plan", "occupancy", "metrics", "log"):
-        visitor.page.locator(f"[data-view={part}]").scroll_into_view_if_needed()
+        visitor.page.locator(f".tab[data-tab={part}]").click()
         expect(visitor.page.locator(f"[data-view={part}]")).to_be_in_viewport()
 
 

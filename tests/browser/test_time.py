@@ -124,12 +124,12 @@ def test_jumps_find_what_matters(run: Visitor) -> None:
     run.page.keyboard.press("[")
     expect(figure(run)).to_have_text(str(max(stop for stop in stops if stop < TICKS)))
     run.page.get_by_role("combobox", name="Jump between").select_option("command")
-    run.page.get_by_role("button", name="Previous mark").click()
+    run.page.get_by_role("button", name="Previous event").click()
     expect(figure(run)).to_have_text("40")
     expect(run.page.locator("#announcer")).to_have_text("Tick 40: “set the number of cars to 14”")
-    run.page.get_by_role("button", name="Previous mark").click()
+    run.page.get_by_role("button", name="Previous event").click()
     expect(run.page.locator(".notice-box")).to_have_text("No earlier change.")
-    run.page.get_by_role("button", name="Next mark").click()
+    run.page.get_by_role("button", name="Next event").click()
     expect(bar(run)).to_be_hidden()
 
 

@@ -199,7 +199,7 @@ def test_metrics_are_the_service_s_own(visit: Visit) -> None:
     judged = asked(visitor, f"regret?from={state['tick'] - 60}&limit=60")["items"]
     lost = sum(item["ticks"] or 0 for item in judged)
     if any(item["lost"] for item in judged):
-        expect(visitor.page.locator(".chart-told").nth(1)).to_have_text("the road was lost")
+        expect(visitor.page.locator(".chart-told").nth(1)).to_have_text("the crash became unavoidable")
     else:
         ticks = "1 tick" if lost == 1 else f"{lost} ticks"
         expect(visitor.page.locator(".chart-told").nth(1)).to_have_text(f"{ticks} lost in {len(judged)}")
@@ -241,7 +241,7 @@ def test_the_service_draws_the_same_tick_and_the_page_again(visit: Visit) -> Non
     visitor = visit()
     visitor.pause()
     visitor.page.get_by_role("button", name="Views").click()
-    visitor.page.get_by_role("menuitemradio", name="Drawn by the service").click()
+    visitor.page.get_by_role("menuitemradio", name="Renderer: server").click()
     theirs = visitor.page.locator(".service-canvas")
     expect(theirs).to_be_visible()
     expect(theirs).to_have_attribute("data-tick", str(visitor.tick()))
@@ -251,7 +251,7 @@ def test_the_service_draws_the_same_tick_and_the_page_again(visit: Visit) -> Non
     )
     expect(theirs).to_have_attribute("data-tick", str(visitor.tick()))
     assert theirs.evaluate(COLOURS) > 60
-    visitor.page.get_by_role("menuitemradio", name="Drawn here").click()
+    visitor.page.get_by_role("menuitemradio", name="Renderer: browser").click()
     expect(theirs).to_be_hidden()
 
 
@@ -261,11 +261,11 @@ def test_pictures_that_cannot_be_read_are_told_and_the_page_draws_again(visit: V
         "() => { window.createImageBitmap = () => Promise.reject(new Error('no picture')); }"
     )
     visitor.page.get_by_role("button", name="Views").click()
-    visitor.page.get_by_role("menuitemradio", name="Drawn by the service").click()
+    visitor.page.get_by_role("menuitemradio", name="Renderer: server").click()
     expect(visitor.page.locator("#notice")).to_contain_text("The road is drawn here again.")
     visitor.page.keyboard.press("Escape")
     visitor.page.get_by_role("button", name="Views").click()
-    expect(visitor.page.get_by_role("menuitemradio", name="Drawn here")).to_have_attribute(
+    expect(visitor.page.get_by_role("menuitemradio", name="Renderer: browser")).to_have_attribute(
         "aria-checked", "true"
     )
     expect(visitor.page.locator(".service-canvas")).to_be_hidden()
@@ -299,19 +299,18 @@ def test_the_road_can_be_read_in_words(visit: Visit) -> None:
     assert box["width"] > 200
 
 
-def test_a_phone_has_all_views_one_below_the_other(visit: Visit) -> None:
+def test_a_phone_shows_one_panel_at_a_time_with_the_box_at_the_bottom(visit: Visit) -> None:
     visitor = visit(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     visitor.pause()
-    tops = [
-        (part(visitor, name).bounding_box() or {"y": -1})["y"]
-        for name in ("road", "talk", "log", "plan", "metrics")
-    ]
-    assert tops == sorted(tops)
-    hide = visitor.page.get_by_role("button", name="Hide the plan")
-    hide.scroll_into_view_if_needed()
-    box = hide.bounding_box()
-    assert box is not None
-    assert min(box["width"], box["height"]) >= 44
+    for name in ("log", "plan", "metrics", "talk", "occupancy"):
+        visitor.page.locator(f".tab[data-tab={name}]").tap()
+        expect(visitor.page.locator(f"[data-view={name}]")).to_be_visible()
+        shown = [each for each in ("log", "plan", "occupancy", "metrics") if part(visitor, each).is_visible()]
+        assert shown == ([name] if name != "talk" else [])
+        box = visitor.words.bounding_box()
+        assert box is not None
+        assert box["y"] + box["height"] <= 844
+        assert box["y"] > 700
     visitor.page.get_by_role("button", name="Enlarge the occupancy").tap()
     large = part(visitor, "occupancy").element_handle()
     visitor.until(  # once the page has scrolled to it

@@ -83,8 +83,8 @@ def test_free_road_takes_what_is_put_there_from_the_bubble(road: Road) -> None:
     cell = road.ahead(4, 1)
     road.page.mouse.click(*road.at(cell))
     expect(road.bubble).to_contain_text("Free road")
-    road.bubble.get_by_role("button", name="Walker").click()
-    road.done("Put a walker here")
+    road.bubble.get_by_role("button", name="Pedestrian").click()
+    road.done("Put a pedestrian here")
     assert road.in_cell(cell) == ["pedestrian-1"] or road.in_cell(cell)[0].startswith("pedestrian")
 
 
@@ -236,7 +236,7 @@ def test_the_past_is_told_and_not_changed(road: Road) -> None:
 def test_the_services_drawing_is_pointed_at_like_the_pages_own(road: Road) -> None:
     name = road.put("barrier", road.ahead(3, 2))
     road.page.locator("#views-menu button").first.click()
-    road.page.get_by_text("Drawn by the service").click()
+    road.page.get_by_text("Renderer: server").click()
     road.page.keyboard.press("Escape")
     expect(road.page.locator(".service-canvas")).to_be_visible()
     x, y = road.at(road.ahead(3, 2))

@@ -26,7 +26,13 @@ ELSEWHERE = {
     ("GET", "/metrics"): "for Prometheus, which reads it by itself",
     ("GET", "/api/v1/sessions/{session_id}/events/stream"): "`following` keeps it open",
 }
-VALUES = {"session": "SESSION", "tick": 7, "parts": {"traffic": "heavy"}, "recording": {"format": "x"}}
+VALUES = {
+    "session": "SESSION",
+    "evaluation": "EVALUATION",
+    "tick": 7,
+    "parts": {"traffic": "heavy"},
+    "recording": {"format": "x"},
+}
 
 
 def made() -> Iterator[tuple[str, Call[Any]]]:
@@ -51,7 +57,7 @@ CALLS = dict(made())
 
 def template(call: Call[Any]) -> tuple[str, str]:
     """As the document writes it."""
-    path = call.path.replace("SESSION", "{session_id}")
+    path = call.path.replace("SESSION", "{session_id}").replace("EVALUATION", "{evaluation_id}")
     return call.method, path.replace("/decisions/7", "/decisions/{tick}")
 
 

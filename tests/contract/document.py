@@ -11,6 +11,7 @@ from fastapi import FastAPI
 from service.app import create_app
 from service.settings import Settings
 from service.store import MemoryStore
+from sim.evaluate.executor import InProcess
 from tests.support.fakes import FewSentences, HandClock
 
 Json = dict[str, Any]
@@ -19,7 +20,11 @@ Json = dict[str, Any]
 def asked() -> FastAPI:
     """The service in memory, with a clock that is moved by hand."""
     return create_app(
-        Settings(database="memory:"), store=MemoryStore(), language=FewSentences(), clock=HandClock()
+        Settings(database="memory:"),
+        store=MemoryStore(),
+        language=FewSentences(),
+        clock=HandClock(),
+        make_executor=InProcess,
     )
 
 

@@ -46,12 +46,18 @@ ROUTES = {
     "POST /api/v1/sessions/{session_id}/counterfactual",
     "GET /api/v1/sessions/{session_id}/link",
     "GET /api/v1/sessions/{session_id}/forecast",
+    "GET /api/v1/sessions/{session_id}/percept",
     "GET /api/v1/sessions/{session_id}/regret",
     "GET /api/v1/sessions/{session_id}/timeline",
     "GET /api/v1/sessions/{session_id}/changes",
     "GET /api/v1/sessions/{session_id}/moments",
     "GET /api/v1/sessions/{session_id}/frame",
     "GET /api/v1/sessions/{session_id}/film",
+    "POST /api/v1/evaluations",
+    "GET /api/v1/evaluations",
+    "GET /api/v1/evaluations/{evaluation_id}",
+    "DELETE /api/v1/evaluations/{evaluation_id}",
+    "GET /api/v1/evaluations/{evaluation_id}/report",
     "POST /api/v1/parse",
     "POST /api/v1/advice",
     "GET /api/v1/language",
@@ -76,6 +82,9 @@ async def client() -> AsyncIterator[httpx.AsyncClient]:
     transport = httpx.ASGITransport(APP, raise_app_exceptions=False)
     async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
         yield client
+        jobs = APP.state.context.jobs
+        for job in await jobs.newest(200):
+            await jobs.wait(job.id)
 
 
 async def new_session(client: httpx.AsyncClient) -> str:
@@ -169,13 +178,16 @@ async def test_answers_have_the_documented_shape(
         body = next(iter(operation["requestBody"]["content"]["application/json"]["examples"].values()))[
             "value"
         ]
-    answer = await client.request(method, path.format(session_id=identity, tick=2), json=body)
+    parts = {"session_id": identity, "tick": 2}
+    if "{evaluation_id}" in path:
+        parts["evaluation_id"] = (await client.post("/api/v1/evaluations", json={"runs": 1})).json()["id"]
+    answer = await client.request(method, path.format(**parts), json=body)
     assert str(answer.status_code) in operation["responses"]
     assert answer.is_success
     documented = operation["responses"][str(answer.status_code)].get("content", {})
     if answer.content:
         assert answer.headers["content-type"].partition(";")[0] in documented
-    if "application/json" in documented:
+    if answer.headers.get("content-type") == "application/json":
         schema = documented["application/json"]["schema"]
         assert "$ref" in schema
         validator(schema).validate(answer.json())

@@ -95,7 +95,7 @@ async def test_each_field_that_cannot_be_changed_is_named(service: Service) -> N
     path = await service.session(paused=True)
     before = await service.state(path)
     parts = {
-        "cell_m": 3, "potholes": 4, "solvable": True, "sensor": "lidar", "courtesy": 7, "traffic": "wild",
+        "cell_m": 3, "potholes": 4, "solvable": True, "sensor": "sonar", "courtesy": 7, "traffic": "wild",
         "wings": 2,
         "planner": ["astar"], "preferences": ["fastest", "cautious"], "rows": True,
     }  # fmt: skip

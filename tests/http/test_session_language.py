@@ -83,7 +83,7 @@ async def test_all_that_is_said_is_in_the_language_of_the_session() -> None:
             ("actions", {"actions": [{"do": "load", "name": "x"}]}),
             (
                 "counterfactual",
-                {"at_tick": 0, "actions": [{"do": "set", "parameter": "weather", "value": "rain"}]},
+                {"at_tick": 0, "actions": [{"do": "set", "parameter": "sensor_noise", "value": 0.2}]},
             ),
         ):
             answer = await service.post(f"{own}/{path}", body)

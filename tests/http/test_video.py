@@ -12,9 +12,9 @@ from PIL import Image, ImageSequence
 
 from service.app import create_app
 from service.http.protocol.request_timeout import TimeoutProtocol
-from service.http.routes import video as route
 from service.settings import Settings
 from service.store import MemoryStore
+from service.work.worker import Worker
 from sim.config import Config
 from sim.render import video as films
 from sim.render.video import VideoMissingError, frame_count, render_video, video_frames
@@ -167,29 +167,23 @@ async def test_mp4_without_its_extra_is_refused_with_what_to_do(
 
 async def test_a_film_ends_when_whoever_asked_has_gone(monkeypatch: pytest.MonkeyPatch) -> None:
     ended, begun = asyncio.Event(), asyncio.Event()
-    loop, frames = asyncio.get_running_loop(), []
 
-    def watched(view: str, runs: list[SimState], form: str, *, turn: films.Turn, **more: Any) -> bytes:
-        def counted() -> Any:
-            frames.append(1)
-            loop.call_soon_threadsafe(begun.set)
-            if (
-                begun.is_set()
-            ):  # from here on the loop has its turn at each frame, however quickly they are drawn
-                asyncio.run_coroutine_threadsafe(asyncio.sleep(0), loop).result(60)
-            return turn()
-
+    async def never(_: Worker, packed: bytes) -> bytes:
+        assert packed
+        begun.set()
         try:
-            return render_video(view, runs, form, turn=counted, **more)
-        finally:
-            loop.call_soon_threadsafe(ended.set)
+            return await asyncio.get_running_loop().create_future()
+        except asyncio.CancelledError:
+            ended.set()
+            raise
 
-    monkeypatch.setattr(route, "render_video", watched)
+    monkeypatch.setattr(Worker, "call", never)
     monkeypatch.setattr(TimeoutProtocol, "half_closed_s", 0.0)
     settings = Settings(database="memory:")
     app = create_app(settings, store=MemoryStore(), language=FewSentences(), clock=HandClock())
     async with running(app, settings) as live:
-        session = await app.state.context.manager.create(None, Config(seed=3, potholes=9), paused=True)
+        manager = app.state.context.manager
+        session = await manager.create(None, Config(seed=3, potholes=9), paused=True)
         for _ in range(200):
             session.timeline.advance()
         _, writer = await asyncio.open_connection("127.0.0.1", live.port)
@@ -198,5 +192,4 @@ async def test_a_film_ends_when_whoever_asked_has_gone(monkeypatch: pytest.Monke
         await asyncio.wait_for(begun.wait(), 60)
         writer.close()
         await asyncio.wait_for(ended.wait(), 60)
-        assert len(frames) < 400, "of more than 500"
-        assert app.state.context.drawing.borrowed_tokens == 0
+        assert manager.work.fates["cancelled"] == 1

@@ -53,7 +53,9 @@ async def test_what_is_set_is_said(talking: Service, text: str, reply: str) -> N
     assert (await talking.state(path))["digest"] == before["digest"]
 
 
-@pytest.mark.parametrize("text", ["make it rain", "use the learned planner", "set courtesy to 300 %"])
+@pytest.mark.parametrize(
+    "text", ["set the sensor range to 40 m", "use the learned planner", "set courtesy to 300 %"]
+)
 async def test_what_cannot_be_set_changes_nothing(talking: Service, text: str) -> None:
     path = await talking.session(paused=True)
     before = (await talking.client.get(path)).json()

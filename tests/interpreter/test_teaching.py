@@ -243,7 +243,8 @@ async def test_a_negated_phrase_is_not_done(talk: Talk) -> None:
 
 
 @pytest.mark.parametrize(
-    "meaning", ["make it rain", "show the sensors", "pause and make it snow", "hide the sensors"]
+    "meaning",
+    ["use the learned planner", "show the sensors", "pause and show the sensors", "hide the sensors"],
 )
 async def test_a_meaning_that_is_not_available_is_refused(talk: Talk, meaning: str) -> None:
     problem = await talk.refused(f"when I say splunge, I mean {meaning}", "not-available")

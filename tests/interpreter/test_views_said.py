@@ -111,4 +111,4 @@ async def test_there_are_no_sensors_to_show(watched: Watched) -> None:
     answer = await watched.say("show the sensors")
     assert answer.status_code == 422
     assert answer.json()["type"] == "/problems/not-available"
-    assert "there are none" in answer.json()["detail"]
+    assert "is not available yet" in answer.json()["detail"]

@@ -20,7 +20,7 @@ def limits() -> Iterator[None]:
         "sim.session.timeline.RECENT_CHANGES": 1,
         "service.sessions.undo_stack.MAX_JUMPS": MOST_JUMPS,
         "service.sessions.action_handlers.MAX_BOOKMARKS": MOST_NAMES,
-        "service.sessions.session.THREAD_TICKS": 4,
+        "service.work.executor.INLINE": 800,
         "service.sessions.persistence.snapshot_codec.MAX_STATES": 8,
         "service.sessions.persistence.snapshot_codec.ACTIONS_PER_CALL": 2,
     }

@@ -11,6 +11,7 @@ from service.narration import Narrator
 from service.sessions.facts import Asked
 from sim.actions import Add, Where
 from sim.config import Config
+from sim.explain.attribution import attribute
 from sim.session.timeline import Timeline
 from sim.types import Kind, Move, Outcome, kind_of
 from tests.support.narration_checks import looks_like_sentences
@@ -140,3 +141,24 @@ def test_with_perfect_sight_nothing_is_said_of_it(about: str) -> None:
         assert not any(
             word in told for word in ("'real': False", "undetected", "missed", "phantom", "was not there")
         )
+
+
+def test_of_a_crash_that_is_the_sensors_fault_it_is_said_what_would_have_avoided_it() -> None:
+    told = 0
+    for seed in range(40):
+        timeline = Timeline(Config(seed=seed, sensor="radar", potholes=12))
+        while timeline.state.world.outcome is Outcome.RUNNING:
+            timeline.advance()
+        if timeline.state.world.outcome is not Outcome.CRASH:
+            continue
+        for language, words in (("en", "would have"), ("de", "Noch einmal vom Start an gefahren")):
+            answer = Narrator.load(language).answer(Asked(Ask(about="blame", what="fault"), timeline))
+            if answer["fault"] == "sensor":
+                assert words in answer["text"]
+                found = attribute(timeline)
+                assert found is not None
+                assert answer["avoided_by"] == [[each.setting, each.value] for each in found.avoided_by]
+                told += 1
+        if told >= 6:
+            return
+    raise AssertionError("too few crashes")

@@ -42,8 +42,10 @@ FACTS: dict[str, tuple[Any, Any]] = {
     "left": (461, 1),
     "low": (0.25, 3),
     "most": (463, 100),
+    "percent": (523, 50),
     "near": ("columns", "rows"),
     "now": (0.68, 3),
+    "number": (541, 2),
     "place": ("there", "road"),
     "problem": (Problem("rows", "too_many", room=467), Problem("rows", "must_be_a_number")),
     "room": (479, 0),
@@ -55,7 +57,7 @@ FACTS: dict[str, tuple[Any, Any]] = {
 """Two values for each fact, which must be told apart in the sentence."""
 MISSING = (
     Problem("avs", "second_vehicle_not_available"),
-    Problem("sensor", "sensor_not_available", value="lidar"),
+    Problem("planner", "planner_not_available", value="rl"),
 )
 CODES = [
     *(("problem", code, facts) for code, facts in PROBLEMS.items()),
@@ -172,12 +174,12 @@ def test_sentences_as_they_are_read(error: EditError, english: str, german: str)
 
 def test_problems_as_they_are_read() -> None:
     with pytest.raises(ConfigError) as refused:
-        Config(columns=2, cell_m=200, solvable=1, sensor="lidar", seed=-1)  # type: ignore[arg-type]
+        Config(columns=2, cell_m=200, solvable=1, sensor="sonar", seed=-1)  # type: ignore[arg-type]
     assert {each.field: refusals().problem(each) for each in refused.value.problems} == {
         "columns": "must be between 3 and 64",
         "cell_m": "must be between 0.5 and 100",
         "seed": "must be between 0 and 9007199254740991",
-        "sensor": "must be perfect; lidar is not available yet",
+        "sensor": "must be one of perfect, camera, lidar, radar, fusion",
         "solvable": "must be true or false",
     }
     (problem,) = GenerationError().problems

@@ -51,7 +51,7 @@ def asked(run: SimState, *change: dict[str, Any]) -> dict[str, Any]:
         (
             [{"do": "prefer", "preference": "cautious"}],
             "If I kept my distance, nothing would change: I would make the same moves, and arrive in "
-            "2.5 s. But the planner “Priority rules of the source” does not weigh such wishes: "
+            "2.5 s. But the planner “Priority rules” does not weigh such wishes: "
             "say “use A*” for one that does.",
         ),
         (

@@ -65,15 +65,23 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "swap", "first": {"kind": "barrier"}, "second": {"kind": "vehicle"}},
     {"do": "replace", "kind": "barrier", "count": 1, "by": "vehicle"},
     {"do": "copy", "kind": "barrier", "count": 1},
+    {"do": "evaluate", "runs": 5},
     {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
+    {"do": "set", "parameter": "weather", "value": "rain"},
+    {"do": "set", "parameter": "time_of_day", "value": "night"},
+    {"do": "set", "parameter": "sensor", "value": "camera"},
+    {"do": "set", "parameter": "detection_sensitivity", "value": 0.7},
+    {"do": "scenario", "weather": "fog", "time_of_day": "dusk", "sensor": "fusion"},
+    {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "weather", "value": "rain"}]},
 ]
 BESIDE_SESSIONS = {"teach", "forget"}
 """Offered, but done to a phrasebook and to no session (test_teaching)."""
 REFUSED: list[dict[str, Any]] = [
-    {"do": "set", "parameter": "weather", "value": "rain"},
+    {"do": "set", "parameter": "sensor_range_m", "value": 40},
     {"do": "show", "view": "sensors"},
     {"do": "hide", "view": "sensors"},
-    {"do": "evaluate", "runs": 5},
+    {"do": "evaluate", "planners": ["astar", "dwa"]},
+    {"do": "evaluate", "scenario": {"weather": "rain"}},
     {"do": "find_worst"},
     {"do": "record", "on": True},
     {"do": "add", "kind": "av", "count": 1},
@@ -84,9 +92,9 @@ REFUSED: list[dict[str, Any]] = [
     {"do": "replace", "kind": "vehicle", "count": 1, "by": "av"},
     {"do": "copy", "kind": "av", "count": 1},
     *({"do": "scenario", key: value} for key, value in (
-        ("weather", "rain"), ("time_of_day", "night"), ("sensor", "lidar"), ("planner", "rl"), ("avs", 1),
+        ("planner", "rl"), ("avs", 1),
     )),
-    {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "weather", "value": "rain"}]},
+    {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "sensor_noise", "value": 0.2}]},
     {"do": "ask", "about": "what_if", "change": [{"do": "pause"}, {"do": "undo"}]},
     {"do": "ask", "about": "what_if", "change": [{"do": "rewind", "ticks": 2}]},
 ]  # fmt: skip

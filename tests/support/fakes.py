@@ -10,6 +10,9 @@ from service.grammar.topic import ALONE, Phrases, Topic
 from service.sessions.scheduler.clock import Lateness, Ticker
 
 SENTENCES: dict[str, list[dict[str, object]]] = {
+    "run 20 episodes with A* and compare with the rule planner": [
+        {"do": "evaluate", "runs": 20, "planners": ["astar", "priority"]}
+    ],
     "add five potholes": [{"do": "add", "kind": "pothole", "count": 5}],
     "add two cars": [{"do": "add", "kind": "vehicle", "count": 2}],
     "add 300 potholes": [{"do": "add", "kind": "pothole", "count": 300}],
@@ -26,7 +29,7 @@ SENTENCES: dict[str, list[dict[str, object]]] = {
     "simulate a highway with 10 potholes and 2 obstacles": [
         {"do": "scenario", "road": "highway", "potholes": 10, "vehicles": 2}
     ],
-    "a rainy road": [{"do": "scenario", "weather": "rain"}],
+    "a learned road": [{"do": "scenario", "planner": "rl"}],
     "why did you do that?": [{"do": "ask", "about": "why"}],
     "where are you?": [{"do": "ask", "about": "status"}],
     "pothole 2m ahead, speed 40 km/h": [

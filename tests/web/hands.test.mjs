@@ -104,7 +104,7 @@ test("a thing is offered away, and to be imagined away, by its id", () => {
 test("free road is offered for what fits, and the move that led there can be asked about", () => {
   const state = { ...INITIAL, world, decision };
   const told = tellOf({ kind: "cell", cell: [3, 21], id: null }, state, decision);
-  assert.deepEqual(told.offers.map(({ text }) => text), ["What if it had gone here?", "Ask why not", "Pothole", "Barrier", "Car", "Walker"]);
+  assert.deepEqual(told.offers.map(({ text }) => text), ["What if it had gone here?", "Ask why not", "Pothole", "Barrier", "Car", "Pedestrian"]);
   assert.deepEqual(told.offers[0].pick, { kind: "move", tick: 9, move: "left" });
   assert.deepEqual(told.offers[1].act.actions, [{ do: "ask", about: "why_not", tick: 9, move: "left" }]);
 });

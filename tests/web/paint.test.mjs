@@ -9,6 +9,7 @@ import { drawOccupancy } from "../../web/src/road/paint/occupancy.js";
 import { drawBoxes, drawForecast, drawHazards } from "../../web/src/road/paint/overlays.js";
 import { drawSignal, paintWarning } from "../../web/src/road/paint/signals.js";
 import { drawLines } from "../../web/src/road/paint/surface.js";
+import { drawMarks, drawWeather } from "../../web/src/road/paint/weather.js";
 import { drawPedestrian, paintWalkerShadow } from "../../web/src/road/paint/pedestrian.js";
 
 /** A canvas that writes down every call, with the colour in force, and knows no colours but the palette's. */
@@ -156,4 +157,33 @@ test("the road's ends are drawn only where they are seen", () => {
     return drawn.length;
   };
   assert.ok(drawnAt(-1) > drawnAt(12));
+});
+
+test("weather and light lie over the road in their own colours; clear weather by day draws nothing", () => {
+  const view = { width: 400, height: 320, cell: 40 };
+  const palette = { veils: Object.fromEntries(["rain", "fog", "snow", "dusk", "dawn", "night", "drops"].map((name) => [name, `veil-${name}`])) };
+  const plain = recording();
+  drawWeather(plain.pen, view, { weather: "clear", light: "day" }, 3, palette);
+  assert.equal(plain.drawn.length, 0);
+  for (const conditions of [{ weather: "fog", light: "day" }, { weather: "clear", light: "night" }]) {
+    const { pen, drawn } = recording();
+    drawWeather(pen, view, conditions, 3, palette);
+    assert.deepEqual(drawn.map(({ what, fill }) => [what, fill]), [["fillRect", `veil-${conditions.weather === "fog" ? "fog" : "night"}`]]);
+    assert.equal(pen.globalAlpha, 1);
+  }
+  const falling = [3, 3.5].map((time) => {
+    const { pen, drawn, count } = recording();
+    drawWeather(pen, view, { weather: "rain", light: "day" }, time, palette);
+    assert.ok(count("lineTo") > 20);
+    return drawn.filter(({ what }) => what === "moveTo").map(({ values }) => values[1]);
+  });
+  assert.notDeepEqual(falling[0], falling[1]);
+});
+
+test("what is missed is ringed where it is, and what is made up is crossed out where it is seen", () => {
+  const { pen, drawn, count } = recording();
+  const marks = { missed: new Set(["pothole-1"]), madeUp: [[2, 7]] };
+  drawMarks(pen, [pose("pothole", 4, 3), pose("vehicle", 5, 3)], marks, PALETTE);
+  assert.deepEqual(drawn.filter(({ what }) => what === "arc").map(({ values }) => values.slice(0, 2)), [[4, 3]]);
+  assert.equal(count("lineTo"), 2);
 });

@@ -126,7 +126,7 @@ test("a preview says what would change, and never more than it knows", () => {
   assert.equal(previewWords(preview({ changes: [change("potholes", 5, 10)] })), "potholes 5 → 10");
   assert.equal(previewWords(preview({ changes: [change("paused", false, true)] })), "pauses");
   assert.equal(previewWords(preview({})), "Understood");
-  assert.equal(previewWords(preview({ changes: [change("config.planner", "priority", "astar")] })), "planner Priority rules of the source → A*");
+  assert.equal(previewWords(preview({ changes: [change("config.planner", "priority", "astar")] })), "planner Priority rules → A*");
   const many = ["potholes", "barriers", "vehicles", "pedestrians"].map((path) => change(path, 0, 1));
   assert.equal(
     previewWords(preview({ changes: [...many, change("config.columns", 8, 9)] })),

@@ -23,7 +23,7 @@ test("hello brings the whole road", () => {
   assert.equal(world.things.size, 4);
   assert.deepEqual(egoOf(world).cell, [4, 20]);
   assert.deepEqual(toGo(world), { rows: 20, metres: 100 });
-  assert.deepEqual(countTexts(world), ["1 pothole", "1 car", "1 walker"]);
+  assert.deepEqual(countTexts(world), ["1 pothole", "1 car", "1 pedestrian"]);
   assert.match(describe(world), /8 lanes and 30 rows.*1 pothole.*lane 5, 20 rows from/);
 });
 

@@ -84,7 +84,7 @@ test("each of the six moves has the service's words, and where the stream tells 
   const brief = moveOptions({ tick: 10, move: "forward", blocked }, [4, 20]);
   const told = Object.fromEntries(brief.map(({ move, standing, reason }) => [move, `${standing}: ${reason}`]));
   assert.equal(told.forward, "taken: free");
-  assert.equal(told.right, "blocked: something moves in");
+  assert.equal(told.right, "blocked: a car moves in");
   assert.equal(told.left, "off_road: off the road");
   assert.equal(told.stay, "free: free");
   assert.deepEqual(brief.find(({ move }) => move === "forward_right").cell, [5, 19]);

@@ -36,7 +36,7 @@ test("figures and names", () => {
   assert.equal(percent(null), "–");
   assert.equal(percent(0.9784), "98 %");
   assert.equal(plain("success_rate"), "success rate");
-  assert.equal(reasonWords("mover_enters"), "something moves in");
+  assert.equal(reasonWords("mover_enters"), "a car moves in");
   assert.equal(reasonWords("too_risky"), "too risky");
   assert.deepEqual([4, 0.15, true, null, "forward_left"].map(valueWords), ["4", "0.15", "on", "not set", "forward left"]);
 });
@@ -47,7 +47,7 @@ test("changes are told in words, lists and names of the wire's own too", () => {
   assert.equal(said("queue", [], ["right", "forward_left"]), "next moves | none | right, forward left");
   assert.equal(said("mode", "auto", "manual"), "driver | itself | you");
   assert.equal(said("playback_speed", 1, "max"), "playback speed | 1× | max");
-  assert.equal(said("config.planner", "priority", "astar"), "planner | Priority rules of the source | A*");
+  assert.equal(said("config.planner", "priority", "astar"), "planner | Priority rules | A*");
   assert.equal(said("config.preferences", ["avoid_potholes", "smooth_ride"], []), "preferences | avoid potholes, smooth ride | none");
   assert.equal(said("config.traffic", null, "none"), "traffic | not set | none");
   assert.equal(said("config.spawn_probability", 0.68, 0.9), "spawn probability | 0.68 | 0.9");

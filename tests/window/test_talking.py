@@ -62,13 +62,13 @@ def test_undo_moments_and_teaching_are_those_of_the_service(window: Open) -> Non
     assert potholes(driver) == 10
 
 
-def test_what_is_not_understood_comes_back_with_suggestions(window: Open) -> None:
+def test_what_is_not_understood_leaves_the_line_and_offers_suggestions(window: Open) -> None:
     driver = window()
     before = driver.game.session.sequence
     exchange = driver.say("please add a big red truck")
     assert not exchange.done
     assert driver.game.session.sequence == before
-    assert driver.console.line.text == "please add a big red truck"
+    assert driver.console.line.text == "", "what was refused leaves the line; ↑ brings it back"
     first, second, *_ = exchange.offers
     driver.press(pygame.K_TAB)
     assert driver.console.line.text == first

@@ -15,6 +15,8 @@ import { browserStorage } from "./core/preferences.js";
 import { createStore } from "./core/store.js";
 import { watchPreferences } from "./core/theme.js";
 import { createPanels } from "./panels/index.js";
+import { loadPastLines } from "./talk/pastLoader.js";
+import { keepTalk } from "./talk/talkKeeper.js";
 import { keepAddress } from "./timeline/momentAddress.js";
 import { TimelineLoader } from "./timeline/timelineLoader.js";
 import { TimeTravel } from "./timeline/timeTravel.js";
@@ -25,10 +27,12 @@ fillTexts(document);
 const store = createStore(reduce, INITIAL);
 const connector = new Connector(store);
 new RegretLoader(store);
+keepTalk(store, { storage: browserStorage() });
+loadPastLines(store);
 new TimelineLoader(store, { storage: browserStorage() });
 const timeTravel = new TimeTravel(store);
 keepAddress(store, timeTravel);
-const page = createPage(store, connector, {
+export const page = createPage(store, connector, {
   timeTravel,
   commands: () => commands,
   wake: () => loop.wake(),

@@ -23,6 +23,7 @@ class SessionStatus:
     playback_speed: float | str = 1.0
     undo: int = 0
     redo: int = 0
+    rules: tuple[Json, ...] = ()
 
 
 def state_json(status: SessionStatus, run: SimState) -> Json:
@@ -45,6 +46,9 @@ def state_json(status: SessionStatus, run: SimState) -> Json:
         "playback_speed": status.playback_speed,
         "mode": run.mode,
         "planner": config.planner,
+        "sensor": config.sensor,
+        "weather": config.weather,
+        "time_of_day": config.time_of_day,
         "vehicles": vehicles_json(world),
         "movers": [_mover_json(thing) for thing in things if thing.kind.moves],
         "hazards": [_hazard_json(thing) for thing in things if thing.kind.fixed],
@@ -53,6 +57,7 @@ def state_json(status: SessionStatus, run: SimState) -> Json:
         "sequence": status.sequence,
         "undo": status.undo,
         "redo": status.redo,
+        "rules": status.rules,
     }
 
 

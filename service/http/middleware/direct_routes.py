@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Awaitable, Callable, Iterable
+from contextlib import nullcontext
 from json import JSONDecodeError
 from typing import Any, get_type_hints
 
@@ -22,6 +23,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.http import json
 from service.http.access_control import check_access, count_change
+from service.http.asker import asked_by
 from service.http.body_limit import read_body, receive_again
 from service.http.conditional.etag import add_tag, conditions_of, set_check
 from service.http.conditional.handler import handle_conditionally
@@ -78,10 +80,8 @@ class DirectRoutes:
                     await self._app(scope, request.receive, send)
                     return
                 count_change(scope, context.guard)
-                if call.route.policy.timed:
-                    with context.metrics.command("rest"):
-                        response = await call(request, context, body)
-                else:
+                timed = call.route.policy.timed
+                with asked_by(scope, receive), context.metrics.command("rest") if timed else nullcontext():
                     response = await call(request, context, body)
         except ClientDisconnect:
             return

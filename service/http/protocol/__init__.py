@@ -26,7 +26,7 @@ MAX_HEADER_BYTES = 65_536
 
 HTTP_ATTRIBUTES = frozenset(
     (
-        *("transport", "flow", "cycle", "loop", "parser", "url"),
+        *("transport", "flow", "cycle", "loop", "parser", "scope", "url"),
         *("connection_made", "connection_lost", "data_received", "eof_received"),
         *("on_message_begin", "on_url", "on_header", "on_headers_complete", "on_message_complete"),
         *("handle_websocket_upgrade", "send_400_response"),

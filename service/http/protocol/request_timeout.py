@@ -4,7 +4,8 @@ uvicorn waits for ever once a first byte has come. The timeout covers reading al
 a WebSocket or event stream is ended by it.
 
 A client that half-closes after sending (`nc -N`) still gets its response; uvicorn takes it for disconnected.
-A client that has really gone looks the same, so GET and HEAD are given up after `HALF_CLOSED_S`.
+A client that has really gone looks the same, so after `HALF_CLOSED_S` GET and HEAD are given up, and dear
+work for other requests is ended (`service.http.asker`): its answer says that nothing was changed.
 """
 
 from __future__ import annotations
@@ -14,11 +15,13 @@ from typing import Any
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
+from service.http.asker import HALF_CLOSED
+
 REQUEST_TIMEOUT_S = 60.0
 """Seconds for a request from its first byte to its last, and for a new connection's first request."""
 
 HALF_CLOSED_S = 2.0
-"""Seconds that the answer to a GET of a half-closed connection may take."""
+"""Seconds that the answer to a GET of a half-closed connection may take, and dear work for others."""
 
 
 class TimeoutProtocol(HttpToolsProtocol):
@@ -49,6 +52,12 @@ class TimeoutProtocol(HttpToolsProtocol):
         self._in_request = True
         super().on_message_begin()
 
+    def on_headers_complete(self) -> None:
+        """Hands the request on, with an event for when its client seems to have gone."""
+        super().on_headers_complete()
+        extensions: dict[str, object] = self.scope.setdefault("extensions", {})  # type: ignore[assignment]
+        extensions[HALF_CLOSED] = asyncio.Event()
+
     def on_message_complete(self) -> None:
         """Handles the last byte of a request."""
         self._stop_timer()
@@ -70,8 +79,7 @@ class TimeoutProtocol(HttpToolsProtocol):
         if self._in_request or not self._is_answering() or self.cycle.response_started:
             return False
         self.cycle.keep_alive = False  # closes the connection after the answer
-        if self.cycle.scope["method"] in ("GET", "HEAD"):
-            self.loop.call_later(self.half_closed_s, self._give_up, self.cycle)
+        self.loop.call_later(self.half_closed_s, self._give_up, self.cycle)
         return True
 
     def request_timed_out(self) -> None:
@@ -79,7 +87,9 @@ class TimeoutProtocol(HttpToolsProtocol):
         self.transport.close()
 
     def _give_up(self, cycle: RequestResponseCycle) -> None:
-        if not cycle.response_started:
+        if cycle.scope["method"] not in ("GET", "HEAD"):
+            cycle.scope["extensions"][HALF_CLOSED].set()  # type: ignore[attr-defined]
+        elif not cycle.response_started:
             self.transport.close()
 
     def _is_answering(self) -> bool:

@@ -31,7 +31,6 @@ from service.sessions.scheduler.playback_speed import MAX
 from service.sessions.session import Session
 from sim.plan import Decision
 from sim.render import encode, render
-from sim.session.timeline import Timeline
 from sim.state import SimState
 
 _LOG = structlog.get_logger(__name__)
@@ -93,7 +92,6 @@ class Reel:
         self._phase = 1.0
         self._before: SimState | None = None
         self._moved_at = 0.0
-        self._decided: tuple[SimState, Decision | None] | None = None
 
     def __len__(self) -> int:
         return len(self._slots)
@@ -129,8 +127,9 @@ class Reel:
         if run is last and phase == self._phase:
             return
         self._run, self._before, self._phase = run, before, phase
-        timeline = self._session.timeline.copy()
-        picture = await to_thread.run_sync(self._draw, timeline, run, before, phase, limiter=self._drawing)
+        latest = self._session.latest_decision()
+        decision = None if latest is None or before is None else latest[0]
+        picture = await to_thread.run_sync(self._draw, run, before, decision, phase, limiter=self._drawing)
         self.drawn += 1
         header = HEADER.pack(MAGIC, VERSION, FORMS[self._wanted.form], phase, run.world.tick)
         self._newest = header + picture
@@ -151,13 +150,8 @@ class Reel:
         pace = self._session.playback_speed
         return 0.0 if pace == MAX else run.config.step_seconds / float(pace)
 
-    def _draw(self, timeline: Timeline, run: SimState, before: SimState | None, phase: float) -> bytes:
+    def _draw(self, run: SimState, before: SimState | None, decision: Decision | None, phase: float) -> bytes:
         """Runs in a thread; `draw_now` waits for it."""
-        decision = None
-        if before is not None:
-            if self._decided is None or self._decided[0] is not before:
-                self._decided = before, timeline.decided(before)
-            decision = self._decided[1]
         size = (self._wanted.side, self._wanted.side)
         world = None if before is None else before.world
         picture = render(self._wanted.view, run, before=world, decision=decision, phase=phase, size=size)

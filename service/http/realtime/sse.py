@@ -69,6 +69,7 @@ async def stream_events(
     `stopping` (the service stops: come back later).
     """
     streams = here.event_streams
+    await session.load_latest_decision()
 
     async def body() -> AsyncIterator[bytes]:
         # Joins when the body is first read: a response that is never read leaves no reader behind.

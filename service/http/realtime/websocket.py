@@ -19,16 +19,18 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 from json import JSONDecodeError
-from typing import Any
+from typing import Any, TypeAlias
 
 import structlog
 from fastapi import APIRouter
 from pydantic import ConfigDict, TypeAdapter, ValidationError
+from starlette.types import Message
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from service.contract.encode.json import encoded
 from service.contract.stream_requests import Actions, Command, Ping, StreamRequest, Subscribe, Unsubscribe
 from service.http import json
+from service.http.asker import UNNAMED
 from service.http.deps import Context, context_of
 from service.http.outcome_json import result_json
 from service.http.query_params import check_query
@@ -47,11 +49,18 @@ from service.sessions.preconditions import Preconditions
 from service.sessions.session import Session
 from service.sessions.subscribers import MissedTicks, SessionDeleted, Subscriber, add_event_id
 from service.sessions.utterance import Outcome, Utterance
+from service.work.asker import CURRENT_ASKER, Asker
 
 _LOG = structlog.get_logger(__name__)
 
 _QUERY = frozenset(("after",))
 _CODES = {404: 4404, 422: 1008}
+
+MOST_UNANSWERED = 8
+"""Messages of one client that wait to be answered; the rest stays in its own buffers."""
+
+_Inbox: TypeAlias = "asyncio.Queue[Message | None]"
+"""What was received; None once the client has gone."""
 
 _MESSAGE: TypeAdapter[StreamRequest] = TypeAdapter(StreamRequest, config=ConfigDict(defer_build=True))
 
@@ -74,6 +83,7 @@ async def stream(socket: WebSocket, session_id: str) -> None:
             await _send(socket, _error(problem))
             await socket.close(_CODES.get(problem.status, 1013))
         return
+    await session.load_latest_decision()
     missed = session.subscribers.messages_since(socket.query_params.get("after", ""))
     subscriber = session.subscribers.subscribe(missed or (), direct_write_of(socket.scope))
     first = hello(context, session) if missed is None else None
@@ -141,11 +151,36 @@ async def _write(socket: WebSocket, session: Session, subscriber: Subscriber, fi
 
 
 async def _read(socket: WebSocket, context: Context, session: Session, screen: _Screen) -> None:
-    """Answer what the client sends, in its order, until it goes or sends too much rubbish."""
+    """Answer what the client sends until it goes, or sends too much rubbish."""
+    inbox: _Inbox = asyncio.Queue(MOST_UNANSWERED)
+    gone = asyncio.Event()
+    token = CURRENT_ASKER.set(Asker(client_of(socket.scope) or UNNAMED, gone.wait))
+    receiving = asyncio.create_task(_receive(socket, inbox, gone))
+    try:
+        await _answer_all(socket, context, session, screen, inbox)
+    finally:
+        receiving.cancel()
+        await asyncio.wait([receiving])
+        CURRENT_ASKER.reset(token)
+
+
+async def _receive(socket: WebSocket, inbox: _Inbox, gone: asyncio.Event) -> None:
+    """Take in what is sent, as far as there is room; dear work for a client that has gone is ended."""
+    while (received := await socket.receive())["type"] != "websocket.disconnect":
+        await inbox.put(received)
+    gone.set()
+    await inbox.put(None)
+
+
+async def _answer_all(
+    socket: WebSocket, context: Context, session: Session, screen: _Screen, inbox: _Inbox
+) -> None:
+    """Answer one message after another, in their order; others have a turn after each."""
     malformed = 0
     while malformed < context.settings.max_malformed_messages:
-        received = await socket.receive()
-        if received["type"] == "websocket.disconnect":
+        await asyncio.sleep(0)
+        received = await inbox.get()
+        if received is None:
             return
         try:
             message = _message(received.get("text"))

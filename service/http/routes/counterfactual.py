@@ -15,14 +15,16 @@ from service.actions import Action
 from service.actions.table import is_world_action
 from service.contract.counterfactual import Counterfactual
 from service.contract.encode.counterfactual import beside_json
+from service.contract.encode.state import SessionStatus
 from service.contract.model import Tick
 from service.contract.requests import MAX_ACTIONS, Sent, Strictly
 from service.http.content_type import JSON_ONLY
-from service.http.deps import TheSession
+from service.http.deps import Here, TheSession
 from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.validation import invalid
+from service.http.work import run_on_timeline
 from service.problems import (
     ContentTooLarge,
     DoesNotFit,
@@ -36,17 +38,21 @@ from service.problems import (
 )
 from service.refusals import refusals
 from service.sessions.availability import refusal_of
-from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
+from service.sessions.narrator_protocol import NarratorProtocol
 from sim.actions import WorldAction
 from sim.explain import QuestionError
 from sim.explain.side_by_side import compare_change, compare_move
 from sim.session.errors import EditError
+from sim.session.timeline import Timeline
 from sim.types import Move
 
 router = api_router("time")
 
 MAX_TICKS = 500
 """Ticks of each run that are told at most; how it ends is told of the whole."""
+
+EPISODE_TICKS = 100
+"""Ticks that are decided for it, about: both runs go on to the end of their episode."""
 
 _EXAMPLES: dict[str, Any] = {
     "move": {
@@ -90,7 +96,7 @@ class Otherwise(Sent):
     ),
 )
 async def run_counterfactual(
-    body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession
+    body: Annotated[Otherwise, Body(openapi_examples=_EXAMPLES)], session: TheSession, here: Here
 ) -> Response:
     """Both runs from that tick on: where they begin, tick by tick what moved, and how each ends.
 
@@ -105,15 +111,20 @@ async def run_counterfactual(
         tick = timeline.tick if body.actions else max(0, timeline.tick - 1)
     actions = _world_actions(body.actions or [], session.language)
 
-    def compare() -> dict[str, Any]:
-        if body.move is not None:
-            compared = compare_move(timeline, tick, Move(body.move))
-        else:
-            compared = compare_change(timeline, tick, actions)
-        return beside_json(status, compared, body.ticks, session.narrator.side_by_side(compared))
-
+    otherwise: Move | list[WorldAction] = actions if body.move is None else Move(body.move)
     try:
-        value = await run_in_thread(uses_external_planner(timeline), QUESTION_S, compare)
+        value = await run_on_timeline(
+            here,
+            timeline,
+            EPISODE_TICKS,
+            _compare,
+            session.narrator,
+            status,
+            timeline,
+            tick,
+            otherwise,
+            body.ticks,
+        )
     except QuestionError as error:
         field = "move" if error.code in ("off_road", "same_move") else "at_tick"
         sentence = refusals(session.language).beside(error.code, error.facts)
@@ -123,6 +134,21 @@ async def run_counterfactual(
         sentence = refusals(session.language).edit(error)
         raise kind(sentence, errors=[FieldProblem(f"actions.{error.field}", sentence)]) from error
     return json_response(value, headers=etag(status.sequence))
+
+
+def _compare(
+    narrator: NarratorProtocol,
+    status: SessionStatus,
+    timeline: Timeline,
+    tick: int,
+    otherwise: Move | list[WorldAction],
+    told: int,
+) -> dict[str, Any]:
+    if isinstance(otherwise, Move):
+        compared = compare_move(timeline, tick, otherwise)
+    else:
+        compared = compare_change(timeline, tick, otherwise)
+    return beside_json(status, compared, told, narrator.side_by_side(compared))
 
 
 def _world_actions(actions: list[Action], language: str) -> list[WorldAction]:

@@ -120,7 +120,7 @@ async def _create(
             parent, named.tick, name=body.name, paused=paused, answer=answer, field="link"
         )
     if recording is None:
-        config = await _config(here, body, language)
+        config = await described_config(here, body, language)
         try:
             return await here.manager.create(
                 body.name, config, paused=bool(body.paused), language=language, answer=answer
@@ -141,7 +141,7 @@ async def _create(
     )
 
 
-async def _config(here: Context, body: bodies.NewSession, language: str) -> Config:
+async def described_config(here: Context, body: bodies.NewSession, language: str) -> Config:
     """The configuration that was asked for, in figures and in words."""
     parts = dict(body.config or {})
     for name in ("seed", "planner"):

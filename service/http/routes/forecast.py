@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import Query, Response
 
 from service.contract.forecast import Expected
-from service.http.deps import TheSession
+from service.http.deps import Here, TheSession
 from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.http.session_json import told_decision
 from service.http.ticks import check_tick
+from service.http.work import run_on_timeline
 from service.problems import Invalid, NotRestorable, UnknownSession
-from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
+from service.sessions.narrator_protocol import NarratorProtocol
 from sim.decide import sense
 from sim.forecast import predict
 from sim.session.timeline import Timeline
-from sim.state import EgoStep, SimState
 
 router = api_router("watching")
 
@@ -35,6 +35,7 @@ MOST_AHEAD = 16
 )
 async def read_forecast(
     session: TheSession,
+    here: Here,
     ticks: Annotated[int, Query(ge=1, le=MOST_AHEAD, description="How far ahead.")] = 1,
     tick: Annotated[
         int | None, Query(ge=0, le=MAX_INTEGER, description="At an earlier tick than now.")
@@ -47,7 +48,14 @@ async def read_forecast(
     way = session.timeline.copy()
     if tick is not None:
         check_tick(tick, way.tick)
-    run, step = await run_in_thread(uses_external_planner(way), QUESTION_S, lambda: _take_step(way, tick))
+    ticks_to = 1 if tick is None else 1 + way.work_to(tick)
+    value = await run_on_timeline(here, way, ticks_to, _expect, session.narrator, way, tick, ticks)
+    return json_response(value)
+
+
+def _expect(narrator: NarratorProtocol, way: Timeline, tick: int | None, ticks: int) -> dict[str, Any]:
+    run = way.state if tick is None else way.at(tick)
+    step = way.taken(run)
     decision = None if step is None else step.decision
     expected = predict(sense(run)[0] if step is None else step.percept, ticks)
     if decision is not None:
@@ -60,11 +68,6 @@ async def read_forecast(
         }
         for each in range(ticks)
     ]
-    value = None if decision is None else told_decision(session.narrator, run, decision)
+    value = None if decision is None else told_decision(narrator, run, decision)
     exact = ticks == 1 or not run.config.reacting
-    return json_response({"tick": now, "decision": value, "exact": exact, "ahead": ahead})
-
-
-def _take_step(way: Timeline, tick: int | None) -> tuple[SimState, EgoStep | None]:
-    run = way.state if tick is None else way.at(tick)
-    return run, way.taken(run)
+    return {"tick": now, "decision": value, "exact": exact, "ahead": ahead}

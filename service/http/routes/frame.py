@@ -49,6 +49,7 @@ async def read_frame(
     form: Annotated[Format, Query(alias="format")] = "png",
 ) -> Response:
     """The road as it is now, with the move that led here."""
+    await session.load_latest_decision()
     run, latest = session.run, session.latest_decision()
     data = await to_thread.run_sync(_draw, run, latest, view, form, limiter=here.drawing)
     headers = {"Cache-Control": "no-store", **etag(session.sequence)}

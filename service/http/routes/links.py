@@ -8,17 +8,15 @@ from __future__ import annotations
 
 import re
 import zlib
-from base64 import urlsafe_b64decode, urlsafe_b64encode
+from base64 import urlsafe_b64decode
 from dataclasses import asdict, dataclass
 from typing import Annotated
 
-from anyio import to_thread
 from fastapi import Query, Response
 from pydantic import ValidationError
 
 from service.contract import answers as schemas
 from service.contract import requests as bodies
-from service.contract.encode.json import encoded
 from service.http.deps import TheSession
 from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
@@ -28,6 +26,7 @@ from service.http.ticks import check_tick
 from service.http.validation import invalid
 from service.problems import FieldProblem, Invalid, NotRestorable, UnknownSession
 from service.sessions.fork import flatten_log, timeline_until
+from service.sessions.persistence.link import CARRIES, RAW, pack_recording
 from service.sessions.persistence.recording import FORMAT, VERSION, recorded_language
 from sim.session.timeline import Timeline
 
@@ -36,10 +35,8 @@ router = api_router("time")
 MOST_CARRIED = 2_000
 """Characters of a link that carries its session; a longer one names it."""
 
-_CARRIES, _NAMES = "#/r/", "#/s/"
+_NAMES = "#/s/"
 _NAMED = re.compile(r"(?P<session>[A-Za-z0-9_-]{1,64})(/(?P<tick>[0-9]{1,15}))?")
-_RAW = -15
-"""Deflate without a header."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +64,7 @@ async def read_link(
     timeline = session.timeline.copy()
     at = timeline.tick if tick is None else tick
     check_tick(at, timeline.tick)
-    carried = await to_thread.run_sync(_carry, timeline, at, session.language)
+    carried = await session.services.work.in_thread(_carry, timeline, at, session.language)
     fits = len(carried) <= MOST_CARRIED
     text = carried if fits else f"{_NAMES}{session.id}/{at}"
     return json_response({"link": text, "tick": at, "carries": fits}, headers=etag(session.sequence))
@@ -77,8 +74,8 @@ def open_link(said: str, most_bytes: int) -> bodies.Recording | Named:
     """What a link carries or names; a whole address will do. Raises `Invalid`."""
     start = said.find("#")
     fragment = said[start:] if start >= 0 else said
-    if fragment.startswith(_CARRIES):
-        return _read(fragment.removeprefix(_CARRIES), most_bytes)
+    if fragment.startswith(CARRIES):
+        return _read(fragment.removeprefix(CARRIES), most_bytes)
     named = _NAMED.fullmatch(fragment.removeprefix(_NAMES)) if fragment.startswith(_NAMES) else None
     if named is None:
         raise _bad("is no link of a session; it has to hold #/r/ or #/s/ and what follows")
@@ -101,13 +98,11 @@ def _carry(timeline: Timeline, tick: int, language: str) -> str:
         "tick": tick,
         "digest": way.state.world.digest(),
     } | recorded_language(language)
-    deflate = zlib.compressobj(9, zlib.DEFLATED, _RAW)
-    packed = deflate.compress(encoded(recording)) + deflate.flush()
-    return _CARRIES + urlsafe_b64encode(packed).rstrip(b"=").decode()
+    return pack_recording(recording)
 
 
 def _read(data: str, most_bytes: int) -> bodies.Recording:
-    inflate = zlib.decompressobj(_RAW)
+    inflate = zlib.decompressobj(RAW)
     try:
         packed = urlsafe_b64decode(data.encode("ascii") + b"=" * (-len(data) % 4))
         unpacked = inflate.decompress(packed, most_bytes)

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any
 
-from anyio import to_thread
 from fastapi import Query, Response
 
+from service.contract.encode.json import encoded
 from service.contract.encode.state import SessionStatus, state_json
 from service.contract.timeline import Moments
-from service.http.deps import TheSession
+from service.http.deps import Here, TheSession
 from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
-from service.http.responses import json_response
 from service.http.route import api_router
 from service.http.session_json import told_decision
 from service.http.ticks import check_tick
+from service.http.work import run_on_timeline
 from service.problems import Invalid, NotRestorable, UnknownSession
 from service.sessions.narrator_protocol import NarratorProtocol
 from sim.session.timeline import Timeline
@@ -36,6 +36,7 @@ MOST_MOMENTS = 64
 )
 async def list_moments(
     session: TheSession,
+    here: Here,
     first: Annotated[int, Query(alias="from", ge=0, le=MAX_INTEGER, description="First tick.")] = 0,
     limit: Annotated[int, Query(ge=1, le=MOST_MOMENTS)] = 16,
 ) -> Response:
@@ -43,8 +44,14 @@ async def list_moments(
     way, status = session.timeline.copy(), session.status
     check_tick(first, way.tick, "from")
     stop = min(way.tick + 1, first + limit)
-    items = await to_thread.run_sync(lambda: list(_moments(session.narrator, status, way, first, stop)))
-    return json_response({"items": items, "now": way.tick})
+    ticks = stop - first + way.work_to(first)
+    page = await run_on_timeline(here, way, ticks, _page, session.narrator, status, way, first, stop)
+    return Response(page, media_type="application/json")
+
+
+def _page(narrator: NarratorProtocol, status: SessionStatus, way: Timeline, first: int, stop: int) -> bytes:
+    """The page as JSON text: of large roads it has megabytes."""
+    return encoded({"items": list(_moments(narrator, status, way, first, stop)), "now": way.tick})
 
 
 def _moments(

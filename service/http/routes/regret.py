@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Any
 
-from anyio import to_thread
 from fastapi import Query, Response
 
 from service.contract.forecast import Judged
-from service.http.deps import TheSession
+from service.http.deps import Here, TheSession
 from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
+from service.work.units import search_units
 from sim.oracle.regret import regret
 from sim.session.timeline import Timeline
 
@@ -23,6 +23,9 @@ router = api_router("watching")
 
 MOST_JUDGED = 200
 """Decisions that are judged at most in one answer, each by a search."""
+
+SEARCHES = 4
+"""Searches that one decision takes to be judged: the decision itself, and what the best would have been."""
 
 
 @router.get(
@@ -33,6 +36,7 @@ MOST_JUDGED = 200
 )
 async def read_regret(
     session: TheSession,
+    here: Here,
     first: Annotated[int, Query(alias="from", ge=0, le=MAX_INTEGER, description="First tick.")] = 0,
     limit: Annotated[int, Query(ge=1, le=MOST_JUDGED)] = 60,
 ) -> Response:
@@ -40,8 +44,13 @@ async def read_regret(
     way = session.timeline.copy()
     check_tick(first, way.tick, "from")
     stop = min(way.tick, first + limit)
-    items = await to_thread.run_sync(lambda: list(_judge(way, first, stop)))
+    units = (stop - first) * SEARCHES * search_units(way.state)
+    items = await here.manager.work.run(units, _judge_all, way, first, stop)
     return json_response({"from": first, "now": way.tick, "items": items, "more": stop < way.tick})
+
+
+def _judge_all(way: Timeline, first: int, stop: int) -> list[dict[str, Any]]:
+    return list(_judge(way, first, stop))
 
 
 def _judge(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:

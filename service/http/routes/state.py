@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from anyio import to_thread
 from fastapi import Query, Response
 
 from service.contract import answers as schemas
@@ -37,5 +36,6 @@ async def read_state(
         return Response(session.state_body(), headers=etag(session.sequence), media_type="application/json")
     check_tick(tick, session.timeline.tick)
     status = session.status
-    run = await to_thread.run_sync(session.timeline.copy().at, tick)
+    way = session.timeline.copy()
+    run = await session.services.work.in_thread(way.at, tick)
     return json_response(state_json(status, run), headers=etag(status.sequence))

@@ -29,6 +29,7 @@ from service.problems import (
     UnknownSession,
     UnsupportedMediaType,
 )
+from service.sessions.session import MAX_STREAMED_TICKS
 from service.sessions.utterance import Outcome, Utterance
 
 router = api_router("talking")
@@ -47,7 +48,7 @@ router = api_router("talking")
 async def step_session(
     body: Annotated[bodies.StepTicks, Body(openapi_examples=examples.STEP)],
     session: TheSession,
-    here: Here,  # noqa: ARG001 -- routes that are called directly are called alike
+    here: Here,
     conditions: TheConditions,
 ) -> Response:
     """Pauses, then runs the ticks as fast as it can; answers what was decided in each."""
@@ -69,4 +70,9 @@ async def step_session(
         )
 
     utterance = Utterance(actions=(actions.Step(ticks=body.ticks),))
-    return respond(await session.change(utterance, preconditions=conditions(respond)))
+    outcome = await session.change(utterance, preconditions=conditions(respond))
+    if body.ticks <= MAX_STREAMED_TICKS:
+        return respond(outcome)
+    return await here.manager.work.in_thread(
+        respond, outcome
+    )  # a decision takes as long to tell as to encode

@@ -8,17 +8,17 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Annotated, Any
 
-from anyio import to_thread
 from fastapi import Query, Response
 
 from service.contract.timeline import TimelinePage
-from service.http.deps import TheSession
+from service.http.deps import Here, TheSession
 from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
+from service.work.units import move_units, state_tick_units
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Cell, Move, Outcome
@@ -49,6 +49,7 @@ _NO_MOVE = "-"
 )
 async def read_timeline(
     session: TheSession,
+    here: Here,
     first: Annotated[int, Query(alias="from", ge=0, le=MAX_INTEGER, description="First tick.")] = 0,
     limit: Annotated[int, Query(ge=1, le=MOST_TICKS)] = 500,
 ) -> Response:
@@ -59,7 +60,12 @@ async def read_timeline(
     way = session.timeline.copy()
     check_tick(first, way.tick, "from")
     stop = min(way.tick, first + limit)
-    moves, marks = await to_thread.run_sync(_scan, way, first, stop)
+    changed = {entry.tick for entry in way.entries if first <= entry.tick <= stop}
+    # Moves are noted, so that hardly a tick is decided again.
+    units = (stop - first + way.work_to(first)) * move_units(way.state) + len(changed) * state_tick_units(
+        way.state
+    )
+    moves, marks = await here.manager.work.run(units, _scan, way, first, stop)
     return json_response(
         {"from": first, "now": way.tick, "moves": moves, "marks": marks, "more": stop < way.tick}
     )

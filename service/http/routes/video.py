@@ -1,19 +1,15 @@
 """`/sessions/{id}/film`: a stretch of ticks as a moving picture.
 
-Made beside the event loop, one film at a time; for each frame it queues for the drawing library like
-everyone else, so that single pictures and streams go on meanwhile. When whoever asked goes away the
-film ends at its next frame. Leaves out how a film is made (`sim.render.video`).
+Made in a worker process, so that single pictures and streams go on meanwhile; it ends when whoever asked goes
+away. Leaves out how a film is made (`sim.render.video`).
 """
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from anyio import CapacityLimiter, create_task_group, from_thread, to_thread
-from fastapi import Query, Request, Response
+from fastapi import Query, Response
 
 from service.http.deps import Here, TheSession
 from service.http.errors import problem_responses
@@ -22,8 +18,10 @@ from service.http.responses import etag
 from service.http.route import api_router
 from service.http.routes.frame import View
 from service.http.validation import invalid
-from service.problems import FieldProblem, Invalid, NotAvailable, NotRestorable, ProblemError, UnknownSession
+from service.problems import FieldProblem, Invalid, NotAvailable, NotRestorable, UnknownSession
+from service.work.units import config_tick_units, move_units, state_tick_units
 from sim.render.video import FPS, VideoMissingError, frame_count, has_video, render_video
+from sim.session.timeline import Timeline
 from sim.state import SimState
 
 router = api_router("watching")
@@ -35,6 +33,9 @@ DEFAULT_TICKS = 20
 GIF_PIXELS = 140_000_000
 """A GIF is held in memory until it is whole, a byte for each pixel of each frame."""
 
+PIXELS_A_UNIT = 2
+"""Pixels of a frame that take as long as one unit of work."""
+
 _FILM: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "A film.",
@@ -45,10 +46,6 @@ _FILM: dict[int | str, dict[str, Any]] = {
 }
 
 
-class _GoneError(Exception):
-    """Whoever asked for the film has gone."""
-
-
 @router.get(
     "/sessions/{session_id}/film",
     response_class=Response,
@@ -56,7 +53,6 @@ class _GoneError(Exception):
     responses=_FILM | problem_responses(UnknownSession, Invalid, NotAvailable, NotRestorable),
 )
 async def read_video(
-    request: Request,
     session: TheSession,
     here: Here,
     first: Annotated[
@@ -79,62 +75,43 @@ async def read_video(
     most = here.settings.max_film_frames
     _check(session.timeline.tick, start, end, form, fps, most)
     timeline, headers = session.timeline.copy(), etag(session.sequence)
-    gone = threading.Event()
-
-    @contextmanager
-    def turn() -> Iterator[None]:
-        """One frame's turn at the drawing library."""
-        if gone.is_set():
-            raise _GoneError
-        me = object()
-        from_thread.run(here.drawing.acquire_on_behalf_of, me)
-        try:
-            yield
-        finally:
-            from_thread.run_sync(here.drawing.release_on_behalf_of, me)
-
-    def render() -> bytes | None:
-        if gone.is_set():
-            return None
-        runs = list(timeline.between(start, end + 1))
-        _check_frames(runs, form, fps, side, most)
-        try:
-            return render_video(
-                view, runs, form, fps=fps, size=(side, side), turn=turn, decision_of=timeline.decided
-            )
-        except _GoneError:
-            return None
-
-    data = await _while_there(request, gone, render, here.filming)
-    if data is None:
-        return Response(status_code=204)  # nobody is there to read it
+    wanted = _Film(view, form, fps, side, most)
+    units = _units(timeline, start, end, wanted)
+    here.manager.work.check(units)
+    # However short: the drawing library is not made for several threads.
+    data = await here.manager.work.in_process(units, _make, timeline, start, end, wanted)
     kind = "image/gif" if form == "gif" else "video/mp4"
     name = f'inline; filename="roadtalk-{session.id}-{start}-{end}.{form}"'
     return Response(data, 200, {"Cache-Control": "no-store", "Content-Disposition": name, **headers}, kind)
 
 
-async def _while_there(
-    request: Request, gone: threading.Event, work: Callable[[], bytes | None], limiter: CapacityLimiter
-) -> bytes | None:
-    """The work's result; `gone` is set as soon as whoever asked goes away, or the service stops."""
+@dataclass(frozen=True, slots=True)
+class _Film:
+    view: View
+    form: Format
+    fps: int
+    side: int
+    most: int
+    """frames"""
 
-    async def listen() -> None:
-        try:
-            while (await request.receive())["type"] != "http.disconnect":
-                pass
-        finally:
-            gone.set()
 
-    async with create_task_group() as group:
-        group.start_soon(listen)
-        try:
-            result: bytes | ProblemError | None = await to_thread.run_sync(work, limiter=limiter)
-        except ProblemError as problem:  # would leave the group wrapped
-            result = problem
-        group.cancel_scope.cancel()
-    if isinstance(result, ProblemError):
-        raise result
-    return result
+def _units(timeline: Timeline, start: int, end: int, film: _Film) -> int:
+    ticks = end - start + 1
+    frames = min(film.most, 1 + int(ticks * timeline.state.config.step_seconds * film.fps))
+    decided = ticks * max(state_tick_units(timeline.state), config_tick_units(timeline.config))
+    return (
+        decided
+        + timeline.work_to(start) * move_units(timeline.state)
+        + frames * film.side**2 // PIXELS_A_UNIT
+    )
+
+
+def _make(timeline: Timeline, start: int, end: int, film: _Film) -> bytes:
+    """The film; for a worker process, whose drawing library nobody else uses meanwhile. Raises `Invalid`."""
+    runs = list(timeline.between(start, end + 1))
+    _check_frames(runs, film.form, film.fps, film.side, film.most)
+    size = (film.side, film.side)
+    return render_video(film.view, runs, film.form, fps=film.fps, size=size, decision_of=timeline.decided)
 
 
 def _check(now: int, start: int, end: int, form: Format, fps: int, most: int) -> None:

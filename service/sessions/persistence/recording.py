@@ -13,17 +13,18 @@ from functools import partial
 from itertools import pairwise
 from typing import Any
 
-from anyio import to_thread
-
 from service.problems import FieldProblem, Invalid, RecordingMismatch
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.fork import renumber
 from service.sessions.persistence.replay import ReplayError, replay
+from service.sessions.persistence.replay_elsewhere import replay_log
 from service.sessions.persistence.seal import Seal
-from service.sessions.scheduler.offload import REPLAY_S, with_time_limit
+from service.sessions.scheduler.offload import REPLAY_S, run_in_thread, uses_installed_planner
 from service.sessions.services import SessionServices
 from service.sessions.session import Session
+from service.sessions.work_estimate import log_units
 from service.store import EntryRecord
+from service.work.units import THREAD
 
 FORMAT = "roadtalk-recording"
 VERSION = 1
@@ -47,23 +48,44 @@ class Recording:
             object.__setattr__(self, "entries", renumber(self.entries))
 
 
-async def replay_recording(session: Session, recording: Recording, services: SessionServices) -> None:
-    """Replay a recording on a new session. Raises `Invalid`, or `RecordingMismatch` for another digest."""
+async def replay_recording(session: Session, recording: Recording, services: SessionServices) -> Session:
+    """The session that a recording leads to; `session`: a new one of its configuration, which is used up.
+
+    Raises `Invalid`, `RecordingMismatch` for another digest, and what the executor of work raises.
+    """
+    most = None if recording.own else services.settings.max_recording_ticks
+    record, entries = session.record, recording.entries
+    units = log_units(session.timeline.config, entries, recording.tick)
+    services.work.check(units)
     try:
-        most = None if recording.own else services.settings.max_recording_ticks
-        work = partial(replay, session, session.narrator, recording.entries, recording.tick, most=most)
-        await to_thread.run_sync(with_time_limit(REPLAY_S, work))
+        work = partial(replay, session, session.narrator, entries, recording.tick, most=most)
+        if uses_installed_planner(session.timeline.config, entries):
+            await run_in_thread(True, REPLAY_S, work)
+        elif units <= THREAD:
+            await services.work.in_thread(work)
+        else:
+            done = await services.work.in_process(
+                units, replay_log, record, entries, recording.tick, services.narrator, services.settings, most
+            )
+            session = done.revive(record, services)
     except ReplayError as error:
-        at = error.position
-        field = f"recording.entries.{at}" if at < len(recording.entries) else "recording.tick"
-        if error.differs:
-            raise RecordingMismatch(
-                f"{error} It was changed, or made by other rules.",
-                errors=[FieldProblem(f"{field}.digest", str(error))],
-            ) from error
-        raise Invalid(
-            "The recording cannot be replayed.", errors=[FieldProblem(field, str(error))]
-        ) from error
+        raise _refusal(recording, error) from error
+    _check(session, recording)
+    return session
+
+
+def _refusal(recording: Recording, error: ReplayError) -> Invalid:
+    at = error.position
+    field = f"recording.entries.{at}" if at < len(recording.entries) else "recording.tick"
+    if error.differs:
+        return RecordingMismatch(
+            f"{error} It was changed, or made by other rules.",
+            errors=[FieldProblem(f"{field}.digest", str(error))],
+        )
+    return Invalid("The recording cannot be replayed.", errors=[FieldProblem(field, str(error))])
+
+
+def _check(session: Session, recording: Recording) -> None:
     if session.timeline.tick != recording.tick:
         ends = session.timeline.tick
         raise RecordingMismatch(f"Replayed, it ends at tick {ends}, not at {recording.tick}.")

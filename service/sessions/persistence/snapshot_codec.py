@@ -13,7 +13,7 @@ from service.sessions.log import LogEvent
 from service.sessions.persistence.session_snapshot import SessionSnapshot
 from service.sessions.rewind import TimeJump
 from service.sessions.undo_stack import UndoStack, UndoStep
-from sim.actions import WorldAction
+from sim.actions import Trigger, WorldAction
 from sim.session.persistent_list import PersistentList
 from sim.session.serialization import Packer, Pool, Unpacker
 from sim.session.timeline import Entry, Snapshot, Timeline
@@ -79,6 +79,7 @@ class _Encoder:
             "logs": self._logs[1],
             "entries": _entries(self._entries),
             "states": self.packer.packed(),
+            "triggers": contract.dump(tuple(self.packer.triggers)),
         }
 
     def _gap_beside(self, beside: Iterable[Timeline]) -> int:
@@ -226,7 +227,8 @@ def _decode_entries(parts: Sequence[Any]) -> list[Entry]:
 
 
 def _decode_timelines(values: Mapping[str, Any], entries: Sequence[Entry]) -> list[Timeline]:
-    states = Unpacker(values["states"])
+    triggers: Sequence[Trigger] = contract.load(values.get("triggers", []))  # type: ignore[assignment]
+    states = Unpacker(values["states"], triggers)
     logs: list[PersistentList[Entry]] = []
     for alike, *stretches in values["logs"]:
         begin = logs[-1].shared[:alike] if alike else ()

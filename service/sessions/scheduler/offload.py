@@ -15,6 +15,8 @@ from typing import Final, TypeVar
 from anyio import to_thread
 
 from service.actions import Action
+from service.store import EntryRecord
+from sim.config import Config
 from sim.plan.safe_planning import is_foreign
 from sim.plan.sandbox.client import time_limit
 from sim.planner_names import installed
@@ -60,3 +62,17 @@ def names_external_planner(actions: Iterable[Action]) -> bool:
     """Whether one of the actions selects a planner of another package."""
     chosen = (getattr(action, key, None) for action in actions for key in ("planner", "value"))
     return any(isinstance(each, str) and each in installed() for each in chosen)
+
+
+def uses_installed_planner(config: Config, entries: Iterable[EntryRecord]) -> bool:
+    """Whether a replay may ask a planner of another package, as the configuration or some entry says."""
+    if is_foreign(config.planner):
+        return True
+    names = installed()
+    return bool(names) and any(
+        value in names
+        for entry in entries
+        for action in entry.actions
+        for value in action.values()
+        if isinstance(value, str)
+    )

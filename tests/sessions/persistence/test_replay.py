@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from service.problems import NothingToUndo, NotRestorable, ProblemError
 from service.sessions.session import Session
 from service.store import MemoryStore
+from service.work.executor import WorkExecutor
 from tests.support.sessions import ADD, REDO, UNDO, Service, do, potholes
 from tests.support.snapshots import TALK, whole
 
@@ -93,16 +94,14 @@ async def test_redo_and_undo_in_one_breath_is_no_step_of_its_own() -> None:
 
 
 async def test_many_undos_at_once_are_done_beside_the_loop(monkeypatch: pytest.MonkeyPatch) -> None:
-    from service.sessions import session as module
-
     threads = []
-    run_sync = module.to_thread.run_sync
+    in_thread = WorkExecutor.in_thread
 
-    async def noted(work: Any, *given: Any) -> Any:
+    async def noted(self: WorkExecutor, work: Any, *given: Any) -> Any:
         threads.append(work.__name__)
-        return await run_sync(work, *given)
+        return await in_thread(self, work, *given)
 
-    monkeypatch.setattr(module.to_thread, "run_sync", noted)
+    monkeypatch.setattr(WorkExecutor, "in_thread", noted)
     session = await Service().session(paused=True)
     for _ in range(5):
         await do(session, {"do": "step", "ticks": 60}, ADD)

@@ -1,13 +1,15 @@
 // @ts-check
-/** What the page's address says: `#/s/<session>`, perhaps `/<tick>`, or `#/r/…`, a session that the link carries whole. */
+/** What the page's address says: `#/s/<session>`, perhaps `/<tick>`, or `#/r/…`, a session that the link carries whole, or `#/g/<name>`, a road of the gallery. */
 
 /**
  * What an address asks for.
  * @param {string} hash
- * @returns {{session: string, tick: number | null} | {carried: string} | null}
+ * @returns {{session: string, tick: number | null} | {carried: string} | {scenario: string} | null}
  */
 export function placeInHash(hash) {
   if (/^#\/r\/[\w-]+$/.test(hash)) return { carried: hash };
+  const scenario = /^#\/g\/(\w{1,40})$/.exec(hash);
+  if (scenario !== null) return { scenario: scenario[1] };
   const match = /^#\/s\/([^/?#]+)(?:\/(\d{1,15}))?$/.exec(hash);
   if (match === null) return null;
   try {

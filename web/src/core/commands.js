@@ -25,8 +25,10 @@ import { t } from "./texts.js";
  * @typedef {object} Doing
  * @property {string} label
  * @property {string} [icon]
+ * @property {boolean} [pressed]  of a button that is on or off
  * @property {Action[][]} [turns]  typed actions, each turn a message of its own
  * @property {(page: Page) => void} [run]  what else is to be done
+ * @property {Action[]} [said]  what is done instead where it is said: on every page that watches
  */
 
 /** Do it, if it makes sense now. @param {Command} act @param {Page} page */

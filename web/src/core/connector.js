@@ -4,7 +4,7 @@
 import { hashOf, placeInHash } from "./address.js";
 import { errorText } from "./http.js";
 import { newestOnly } from "./latest.js";
-import { createSession, findSession, openLink } from "./sessions.js";
+import { createScenario, createSession, findSession, openLink } from "./sessions.js";
 import { Connection } from "./socket.js";
 import { t } from "./texts.js";
 
@@ -28,6 +28,7 @@ export class Connector {
   follow() {
     const place = placeInHash(location.hash);
     if (place === null) return void this.startSession();
+    if ("scenario" in place) return void this.#openScenario(place.scenario);
     if ("carried" in place) return void this.#openCarried(place.carried);
     if (place.session === this.#connection?.session) return;
     this.#going();
@@ -61,6 +62,19 @@ export class Connector {
   /** @param {ClientMessage} message @returns {boolean} whether it was sent */
   send(message) {
     return this.#connection?.send(message) ?? false;
+  }
+
+  /** A session on a road of the gallery; it takes the link's place. @param {string} name */
+  async #openScenario(name) {
+    const newest = this.#going();
+    const { scenarioNamed } = await import("../timeline/scenarios.js");
+    const found = scenarioNamed(name);
+    try {
+      const { id } = await (found ? createScenario(found) : createSession());
+      if (newest()) location.replace(hashOf(id));
+    } catch (error) {
+      if (newest()) this.store.dispatch({ type: "trouble", text: errorText(error) });
+    }
   }
 
   /** A session out of the address itself; it takes the link's place, so that going back does not make another. @param {string} link */

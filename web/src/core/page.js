@@ -1,6 +1,7 @@
 // @ts-check
 /** What panels may ask for: to read the state, to dispatch events, to say and do things. */
 
+import { spokenAct } from "./spoken.js";
 import { LANGUAGE } from "./texts.js";
 
 /** @import { Command } from "./commands.js" */
@@ -44,6 +45,8 @@ import { LANGUAGE } from "./texts.js";
  */
 export function createPage({ state, dispatch, subscribe }, connector, parts) {
   let exchanges = 0;
+  /** Exchanges are kept from visit to visit, and those of another tab come in between. */
+  const visit = Math.random().toString(36).slice(2, 8);
 
   /**
    * @param {string} label
@@ -52,17 +55,37 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
    */
   function exchange(label, quiet, message) {
     exchanges += 1;
-    const id = `c${exchanges}`;
+    const id = `${visit}-${exchanges}`;
     dispatch({ type: "said", id, text: label, quiet });
     if (!connector.send(message(id))) dispatch({ type: "unsent", id });
     return id;
   }
 
-  return {
+  /** Do what a sentence names among all that keys, menus and buttons do; or let the service hear it. @param {string} text */
+  function say(text) {
+    const spoken = spokenAct(text, parts.commands(), state());
+    if (spoken === null) return void exchange(text, false, (id) => ({ type: "command", id, text, language: LANGUAGE }));
+    const { said } = spoken.doing;
+    if (said) return void exchange(text, false, (id) => ({ type: "actions", id, actions: said }));
+    for (const actions of spoken.doing.turns ?? []) exchange(text, false, (id) => ({ type: "actions", id, actions }));
+    if (spoken.doing.run) answerHere(text, spoken.doing.label);
+    spoken.doing.run?.(page);
+  }
+
+  /** An exchange that the service has no part in. @param {string} text @param {string} reply */
+  function answerHere(text, reply) {
+    exchanges += 1;
+    const id = `${visit}-${exchanges}`;
+    dispatch({ type: "said", id, text, quiet: false });
+    dispatch({ type: "done-here", id, text, reply });
+  }
+
+  /** @type {Page} */
+  const page = {
     state,
     dispatch,
     subscribe,
-    say: (text) => void exchange(text, false, (id) => ({ type: "command", id, text, language: LANGUAGE })),
+    say,
     put: (text) => dispatch({ type: "draft", text }),
     act: (actions, label, quiet = false) => exchange(label, quiet, (id) => ({ type: "actions", id, actions })),
     send: (message) => void connector.send(message),
@@ -76,4 +99,5 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
     reconnect: () => connector.reconnect(),
     ...parts,
   };
+  return page;
 }

@@ -29,6 +29,16 @@ export async function createSession(http, language = LANGUAGE) {
 }
 
 /**
+ * A new session on a certain road. Throws `Refused`.
+ * @param {{seed: number, config: Record<string, unknown>}} road
+ * @param {typeof fetch} [http]
+ * @returns {Promise<Session>}
+ */
+export function createScenario({ seed, config }, http) {
+  return askJson(SESSIONS_PATH, { method: "POST", body: { seed, config, ...(LANGUAGE === "en" ? {} : { language: LANGUAGE }) }, http });
+}
+
+/**
  * Whether a session exists. A service that fails counts as unreachable: only a plain "no" is a no.
  * @param {string} id
  * @param {typeof fetch} [http]

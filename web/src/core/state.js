@@ -8,21 +8,26 @@
  */
 
 import { logChange, logEvents, logTick } from "../talk/journal.js";
-import { t } from "./texts.js";
+import { helloNote } from "./helloNote.js";
 import { NO_STEPS, stepsAfter } from "./undoStack.js";
-import { answerExchange, beginExchange, endUnanswered, refuseExchange, withQuestion } from "../talk/exchanges.js";
+import { answerExchange, answerHere, beginExchange, endUnanswered, refuseExchange, withQuestion } from "../talk/exchanges.js";
+import { withPastLines } from "../talk/pastLines.js";
 import { shownBy } from "../talk/shown.js";
 import { NO_TIMELINE, timelineAfter } from "../timeline/timelineState.js";
 import { INITIAL_VIEWS, viewsAfter } from "../ui/views.js";
+import { NOT_CONNECTED } from "../talk/notConnected.js";
+import { queueAfter } from "../road/moveQueue.js";
 import { worldAfter, worldOf } from "../road/world.js";
 import { NO_REGRET, regretAfter } from "../why/regret.js";
 
 /** @import { Foresight } from "../why/forecast.js" */
 /** @import { Line } from "../talk/journal.js" */
-/** @import { ServerMessage, Decision, Cell, Problem, HelloMessage, TickMessage } from "./protocol.js" */
+/** @import { ServerMessage, Decision, Cell, HelloMessage, TickMessage } from "./protocol.js" */
 /** @import { Phase } from "./socket.js" */
 /** @import { Steps } from "./undoStack.js" */
 /** @import { Exchange } from "../talk/exchanges.js" */
+/** @import { Told } from "../talk/pastLines.js" */
+/** @import { RoadChange } from "./wire.js" */
 /** @import { LoaderEvent, Timeline } from "../timeline/timelineState.js" */
 /** @import { Regret, RegretEvent } from "../why/regret.js" */
 /** @import { Hypothesis } from "../why/alternatives.js" */
@@ -33,6 +38,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @typedef {object} State
  * @property {Phase} connection  how the stream stands; while it is not "live" the rest is stale
  * @property {string | null} session  the session's id
+ * @property {string | null} parent  the session it was forked from
  * @property {string | null} trouble  a sentence when no session could be opened
  * @property {World | null} world  the road at the latest tick heard of
  * @property {Decision | null} decision  the latest, as far as the stream tells it
@@ -49,6 +55,8 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @property {Views} views  what is shown
  * @property {string | null} large  the part of the page that is enlarged
  * @property {Steps} steps  which changes can be taken back
+ * @property {string[]} queue  moves that wait to be made, of a person who drives
+ * @property {RoadChange[] | null} roadChanges  what was said and stands, as it was last told
  * @property {Regret} regret  how good and how tight decisions were
  * @property {Look} look  which tick is looked at
  * @property {Past | null} past  that tick, as soon as it has come; null: the present is looked at
@@ -86,6 +94,9 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  *   | {type: "past", past: Past}
  *   | {type: "draft", text: string}
  *   | {type: "comparison", other: Hypothesis}
+ *   | {type: "done-here", id: string, text: string, reply: string}
+ *   | {type: "talk", session: string, talk: Exchange[]}
+ *   | {type: "past-lines", decisions: Told[], changes: RoadChange[]}
  *   | LoaderEvent | RegretEvent} PageEvent  what happened on this side of the wire
  */
 
@@ -95,6 +106,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
 export const INITIAL = {
   connection: { phase: "opening" },
   session: null,
+  parent: null,
   trouble: null,
   world: null,
   decision: null,
@@ -111,6 +123,8 @@ export const INITIAL = {
   views: INITIAL_VIEWS,
   large: null,
   steps: NO_STEPS,
+  queue: [],
+  roadChanges: null,
   regret: NO_REGRET,
   look: { tick: null, playing: false },
   past: null,
@@ -148,6 +162,8 @@ function afterDoing(state, event) {
       return { ...state, talk: beginExchange(state.talk, event), highlight: null };
     case "unsent":
       return { ...state, talk: refuseExchange(state.talk, event.id, NOT_CONNECTED) };
+    case "done-here":
+      return { ...state, talk: answerHere(state.talk, event), announcement: event.reply };
     case "highlight":
       return { ...state, highlight: event.highlight };
     case "notice":
@@ -164,6 +180,12 @@ function afterDoing(state, event) {
       return { ...state, draft: { text: event.text } };
     case "comparison":
       return { ...state, comparison: { other: event.other } };
+    case "talk":
+      return event.session === state.session ? { ...state, talk: event.talk } : state;
+    case "timeline-changes":
+      return { ...state, roadChanges: event.items };
+    case "past-lines":
+      return { ...state, log: withPastLines(state.log, event.decisions, event.changes, state.talk) };
     default:
       return state;
   }
@@ -182,6 +204,7 @@ function afterMessage(state, event) {
         ...(event.views ? arranged(state, event.views) : state),
         steps: stepsAfter(state.steps, event.state.undo, event.sequence),
         world: worldOf(event.state),
+        queue: queueAfter(state.queue, event.changes ?? []),
         prior: null,
         log: logChange(state.log, event),
         highlight: null,
@@ -215,15 +238,6 @@ function afterLook(state, { tick, playing }) {
   return tick === null && state.past !== null ? { ...state, look, past: null, highlight: null } : { ...state, look };
 }
 
-/** @type {Problem} */
-const NOT_CONNECTED = {
-  type: "about:blank",
-  title: t("page.not_connected"),
-  status: 0,
-  errors: [],
-  detail: t("page.not_sent"),
-};
-
 /** @param {State} state @param {Phase} phase @returns {State} */
 function afterPhase(state, phase) {
   if (phase.phase !== "lost") return { ...state, connection: phase };
@@ -245,11 +259,12 @@ function arranged(state, change, large = state.large) {
 
 /** @param {State} state @param {HelloMessage} hello @returns {State} */
 function afterHello(state, hello) {
-  const note = state.world === null ? (hello.session.rules_note ?? null) : null; // once, not with each connection
+  const note = helloNote(state, hello);
   return {
     ...state,
     ...(note === null ? {} : { notice: { text: note }, announcement: note }),
     session: hello.session.id,
+    parent: hello.session.parent?.id ?? null,
     talk: withQuestion(state.talk, hello.session.pending),
     trouble: null,
     world: worldOf(hello.state),
@@ -294,6 +309,7 @@ function afterTick(state, message) {
     ...state,
     world: worldAfter(state.world, message),
     prior: state.world,
+    queue: state.queue.slice(1),
     decision: message.decision ?? null,
     narration: message.narration ?? null,
     log: logTick(state.log, message),

@@ -33,6 +33,7 @@ const calls = new Set();
  * @property {string} focus
  * @property {Record<string, string>} kinds  of things, by kind, for signs
  * @property {Record<string, string>} roadKinds  the same on asphalt
+ * @property {Record<string, string>} veils  over the road, by weather and time of day; `drops` of rain and snow
  * @property {number} lamps  how much lamps shine, 0–1
  */
 
@@ -62,6 +63,7 @@ const COLOURS = {
   focus: "--accent",
 };
 
+const VEILS = ["rain", "fog", "snow", "dusk", "dawn", "night", "drops"];
 const KINDS = ["av", "vehicle", "pedestrian", "pothole", "barrier"];
 
 /**
@@ -76,7 +78,8 @@ export function readPalette(root) {
   const [kinds, roadKinds] = ["--kind-", "--road-kind-"].map((prefix) =>
     Object.fromEntries(KINDS.map((kind) => [kind, read(prefix + kind)])),
   );
-  return /** @type {Palette} */ ({ ...colours, kinds, roadKinds, lamps: Number(read("--road-lamps")) });
+  const veils = Object.fromEntries(VEILS.map((name) => [name, read(`--road-veil-${name}`)]));
+  return /** @type {Palette} */ ({ ...colours, kinds, roadKinds, veils, lamps: Number(read("--road-lamps")) });
 }
 
 /**

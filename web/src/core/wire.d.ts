@@ -141,7 +141,7 @@ export interface Answer {
 /** A question; which keys belong to which `about` is the contract's table. */
 export interface Ask {
   do: "ask";
-  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending" | "detail" | "other" | "pattern" | "outlook" | "blame" | "planners" | "quiz";
+  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending" | "detail" | "other" | "pattern" | "outlook" | "blame" | "planners" | "quiz" | "rules";
   move?: Move | null;
   instead?: Move | null;
   tick?: number | null;
@@ -189,6 +189,15 @@ export interface BriefDecision {
   /** How much there is to say: 0 nothing was in the way, 1 a detour, 2 a wait or worse. */
   weight: 0 | 1 | 2;
   blocked: BlockedMove[];
+}
+
+/** Switch rules off: one by its number or place, all, the last, or those that do such an action to such things. */
+export interface Cancel {
+  do: "cancel";
+  which?: number | "all" | "last" | null;
+  place?: number | null;
+  doing?: string | null;
+  kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
 }
 
 /** One value that differs. */
@@ -256,6 +265,24 @@ export interface CommandResult {
   sequence: number;
   corrections: Correction[];
   dry_run: boolean;
+  /** Evaluations that it started, which go on in the background. */
+  evaluations?: StartedEvaluation[];
+}
+
+/** What a rule waits for: one fact, with its figures. */
+export interface Condition {
+  fact: "crash" | "arrival" | "stuck" | "episode" | "every" | "after" | "tick" | "row" | "lane" | "near" | "count";
+  ticks?: number | null;
+  seconds?: number | null;
+  tick?: number | null;
+  row?: number | null;
+  lane?: "left" | "middle" | "right" | number | null;
+  kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
+  closer_than_m?: number | null;
+  within_m?: number | null;
+  farther_than_m?: number | null;
+  at_least?: number | null;
+  at_most?: number | null;
 }
 
 /** What a patch of the configuration did. */
@@ -370,6 +397,55 @@ export interface Evaluate {
   runs?: number | null;
   planners?: ("rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative")[] | null;
   scenario?: ScenarioParts | null;
+  road?: "this" | null;
+}
+
+/** An evaluation as it stands. */
+export interface Evaluation {
+  id: string;
+  state: "queued" | "running" | "done" | "failed" | "cancelled";
+  created_at: string;
+  /** What it runs, in words. */
+  title: string;
+  /** Episodes of each planner. */
+  runs: number;
+  planners: string[];
+  /** Episode i is drawn from this seed + i, for every planner. */
+  seed: number;
+  /** What the roads are drawn from. */
+  config: { [key: string]: unknown };
+  /** Whether all episodes start from one road, that of the session it was asked of. */
+  same_road: boolean;
+  /** Episodes that are done. */
+  done: number;
+  /** The share of the episodes that are done. */
+  progress: number;
+  /** What came of it in plain language, once it is done. */
+  text: string[] | null;
+  /** The figures, once it is done. */
+  result: { [key: string]: unknown } | null;
+  /** Why it failed. */
+  error: string | null;
+  links: { [key: string]: string };
+}
+
+/** Evaluations, newest first. */
+export interface EvaluationPage {
+  items: EvaluationSummary[];
+  after: string | null;
+  more: boolean;
+}
+
+/** An evaluation in a list. */
+export interface EvaluationSummary {
+  id: string;
+  state: "queued" | "running" | "done" | "failed" | "cancelled";
+  created_at: string;
+  /** What it runs, in words. */
+  title: string;
+  /** The share of the episodes that are done. */
+  progress: number;
+  links: { [key: string]: string };
 }
 
 /** Lines of the log, oldest first. */
@@ -638,6 +714,60 @@ export interface Mover {
   disabled: boolean;
 }
 
+/** Many episodes to run, in words or in figures. */
+export interface NewEvaluation {
+  /** As a sentence, such as `run 500 episodes with A*`. Beside it: session, seed, language. */
+  text?: string | null;
+  /** Episodes of each planner, up to 1,000,000. Default: 100. */
+  runs?: number | null;
+  /** Compared on the same roads, each with the first. Default: the road's. */
+  planners?: string[] | null;
+  /** A sentence that describes the roads. */
+  scenario?: string | null;
+  /** What the roads are drawn from. */
+  config?: {
+    columns?: number;
+    visible_rows?: number;
+    rows?: number;
+    cell_m?: number;
+    step_seconds?: number;
+    spawn_probability?: number;
+    pothole_probability?: number;
+    potholes?: number | null;
+    vehicles?: number | null;
+    barriers?: number;
+    pedestrians?: number;
+    courtesy?: number;
+    attentive?: number;
+    collision?: "swept" | "cell";
+    repetition?: boolean;
+    reset_delay_s?: number;
+    road?: "highway" | "city" | "rural" | null;
+    layout?: "walls" | "narrows" | "dead_ends" | "crossing" | "maze" | null;
+    traffic?: "none" | "light" | "normal" | "heavy" | null;
+    planner?: string;
+    preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
+    safety_buffer?: number;
+    sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion";
+    weather?: "clear" | "rain" | "fog" | "snow";
+    time_of_day?: "day" | "dusk" | "night" | "dawn";
+    detection_sensitivity?: number;
+    dynamics?: "grid";
+    behaviour?: "sideways";
+    rules?: number;
+    solvable?: boolean;
+    seed?: number;
+  } | null;
+  /** Roads as in this session; alone or with a text, runs, planners. */
+  session?: string | null;
+  /** The session's own road from this moment on, in place of roads that are drawn. */
+  road?: "this" | null;
+  /** Of the first episode. Default: the session's, else 0. */
+  seed?: number | null;
+  /** Of the text and the report. In which language; `GET /language` names them. Default: the session's. */
+  language?: string | null;
+}
+
 /** How another session goes on from a tick of this one. */
 export interface NewFork {
   /** Default: now. */
@@ -677,7 +807,10 @@ export interface NewSession {
     planner?: string;
     preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
     safety_buffer?: number;
-    sensor?: "perfect";
+    sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion";
+    weather?: "clear" | "rain" | "fog" | "snow";
+    time_of_day?: "day" | "dusk" | "night" | "dawn";
+    detection_sensitivity?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -893,7 +1026,10 @@ export interface Recording {
     planner?: string;
     preferences?: ("avoid_potholes" | "smooth_ride" | "fastest" | "cautious")[];
     safety_buffer?: number;
-    sensor?: "perfect";
+    sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion";
+    weather?: "clear" | "rain" | "fog" | "snow";
+    time_of_day?: "day" | "dusk" | "night" | "dawn";
+    detection_sensitivity?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -985,6 +1121,20 @@ export interface RoadChanges {
   more: boolean;
 }
 
+/** A rule that stands: "every 10 ticks add a car". */
+export interface Rule {
+  /** By which it is cancelled; never used again in the session. */
+  number: number;
+  /** The rule in the language of the session. */
+  text: string;
+  /** Ticks since the session began. */
+  since: number;
+  /** How often it has been done. */
+  fired: number;
+  /** The action that made it. */
+  action: { [key: string]: unknown };
+}
+
 /** Something said to a session. */
 export interface Said {
   /** At most 500 characters, unless the service is set otherwise. */
@@ -1052,6 +1202,32 @@ export interface ScenarioParts {
   avs?: number | null;
   planner?: "rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative" | null;
   sensor?: "perfect" | "camera" | "lidar" | "radar" | "fusion" | null;
+}
+
+/** What the first ego sees at a tick, and what it misses. */
+export interface Sensed {
+  /** Ticks since the session began. */
+  tick: number;
+  sensor: string;
+  weather: "clear" | "rain" | "fog" | "snow";
+  time_of_day: "day" | "dusk" | "night" | "dawn";
+  seen: SensedThing[];
+  /** Ids of things that are there and not seen where they are. */
+  missed: string[];
+}
+
+/** A thing as it is seen. */
+export interface SensedThing {
+  id: string;
+  kind: Kind;
+  /** [column, row], row 0 at the goal */
+  cell: [number, number];
+  /** How sure the sensor is that it is there, 0 to 1. */
+  likelihood: number;
+  /** The devices that report it in this tick; none where it is remembered, or with another sensor. */
+  sensors: string[];
+  /** Whether it is there. */
+  real: boolean;
 }
 
 /** A session as it stands. */
@@ -1160,6 +1336,12 @@ export interface Side {
   end: End;
 }
 
+/** An evaluation that a sentence or an action has started. */
+export interface StartedEvaluation {
+  id: string;
+  links: { [key: string]: string };
+}
+
 /** The world at a tick. */
 export interface State {
   session: string;
@@ -1180,6 +1362,10 @@ export interface State {
   playback_speed: number | "max";
   mode: Mode;
   planner: string;
+  /** What the egos see with. */
+  sensor: string;
+  weather: "clear" | "rain" | "fog" | "snow";
+  time_of_day: "day" | "dusk" | "night" | "dawn";
   /** The egos, in order of their ids. */
   vehicles: Vehicle[];
   movers: Mover[];
@@ -1193,6 +1379,8 @@ export interface State {
   undo: number;
   /** How many undone changes can be made again. */
   redo: number;
+  /** The rules that stand, in the order of their numbers. */
+  rules?: Rule[];
 }
 
 /** A full state for a reader that was too slow. */
@@ -1342,6 +1530,15 @@ export interface TimelinePage {
   more: boolean;
 }
 
+/** A rule: whenever the condition comes to hold, these actions are done at the end of that tick. The condition of a storyboard event in ASAM OpenSCENARIO, on its rising edge. */
+export interface Trigger {
+  do: "trigger";
+  when: Condition;
+  then: (Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Pause)[];
+  until?: Condition | null;
+  times?: number | null;
+}
+
 /** Actions of the language contract, no language involved; done together or not at all. */
 export interface TypedActions {
   actions: Action[];
@@ -1407,4 +1604,4 @@ export interface Which {
 }
 
 /** One action of the language contract. */
-export type Action = Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Goal | Style | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Chat | Evaluate | FindWorst | Advise | Save | Load | Record | Teach | Forget | Drop;
+export type Action = Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Trigger | Cancel | Goal | Style | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Chat | Evaluate | FindWorst | Advise | Save | Load | Record | Teach | Forget | Drop;

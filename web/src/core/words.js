@@ -28,11 +28,13 @@ export function moveName(move) {
 }
 
 /**
- * A planner's reason in a word or two.
+ * A planner's reason in a word or two; of a mover it is said whether it walks.
  * @param {string} reason
+ * @param {string[]} [causes]  ids of what is in the way
  */
-export function reasonWords(reason) {
-  return nameText("reasons", reason);
+export function reasonWords(reason, causes = []) {
+  const walks = causes[0]?.startsWith("pedestrian-") ?? false;
+  return nameText("reasons", walks ? reason.replace(/^mover_/, "pedestrian_") : reason);
 }
 
 /**

@@ -1,5 +1,5 @@
 // @ts-check
-/** How the connection stands: live, or since when what is seen is stale. */
+/** How the connection stands: live, in the past that is looked at, or since when what is seen is stale. */
 
 import { html, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
@@ -14,6 +14,7 @@ export function createConnectionBadge(host, page) {
     update(state) {
       const { phase } = state.connection;
       host.dataset.phase = phase;
+      host.toggleAttribute("data-past", state.past !== null);
       host.dataset.session = state.session ?? "";
       document.body.classList.toggle("stale", phase === "lost" && state.world !== null);
       render(
@@ -26,7 +27,8 @@ export function createConnectionBadge(host, page) {
 }
 
 /** @param {State} state */
-function textOf({ connection, world }) {
+function textOf({ connection, past, world }) {
+  if (connection.phase === "live" && past !== null) return t("connection.past", { tick: past.world.tick });
   if (connection.phase !== "lost") return t(`connection.${connection.phase}`);
   const seconds = Math.max(1, Math.round(connection.retryMs / 1000));
   return world === null ? t("connection.lost", { seconds }) : t("connection.stale", { tick: world.tick, seconds });

@@ -2,7 +2,7 @@
 /** The clock's buttons and its speed; the same as the keys do (`core/commands.js`). */
 
 import { html, live, nothing, render } from "../../vendor/lit-html.js";
-import { COMMANDS, runCommand } from "../core/commands.js";
+import { runCommand } from "../core/commands.js";
 import { t } from "../core/texts.js";
 import { paceText } from "../core/words.js";
 import { icon } from "../ui/icons.js";
@@ -23,13 +23,13 @@ const AFTER = "step";
  * @returns {Panel}
  */
 export function createControls(host, page) {
-  const commands = COMMANDS.filter((act) => act.button);
   return {
-    commands: [faster(1, "+"), faster(-1, "−")],
+    commands: [faster(1, "+"), faster(-1, "−"), ...speedCommands()],
 
     update(state) {
       const off = state.connection.phase !== "live";
       const pace = page.state().world?.pace ?? 1;
+      const commands = page.commands().filter((act) => act.button);
       render(
         commands.map((act) => html`${button(act, state, off, page)}${act.name === AFTER ? speed(pace, off, page) : nothing}`),
         host,
@@ -42,17 +42,19 @@ export function createControls(host, page) {
 function button(act, state, off, page) {
   const doing = act.now(state);
   const { label, icon: picture = act.name } = doing ?? { label: t(`clock.${act.name}`) };
+  const short = act.name === "manual" ? t("drive.label") : label;
   const title = [label, act.keyName].filter(Boolean).join("  ");
   return html`<button
     class=${act.name === "clock" ? "button strong" : "button"}
     type="button"
     title=${title}
     aria-label=${label}
+    aria-pressed=${doing?.pressed === undefined ? nothing : String(doing.pressed)}
     aria-keyshortcuts=${act.key === " " ? "Space" : (act.key ?? nothing)}
     data-act=${act.name}
     ?disabled=${off || doing === null}
     @click=${() => runCommand(act, page)}
-  ><span class="control-icon">${icon(picture)}</span><span class="control-label">${label}</span></button>`;
+  ><span class="control-icon">${icon(picture)}</span><span class="control-label">${short}</span></button>`;
 }
 
 /** @param {number | "max"} pace @param {boolean} off @param {Page} page */
@@ -67,6 +69,15 @@ function speed(pace, off, page) {
 /** @param {number | "max"} value @param {Page} page */
 function setSpeed(value, page) {
   page.act([{ do: "set", parameter: "playback_speed", value }], t("clock.speed_set", { pace: paceText(value) }), true);
+}
+
+/** Each speed by its name. @returns {Command[]} */
+function speedCommands() {
+  return SPEEDS.map((pace) => ({
+    name: `speed-${pace}`,
+    group: t("groups.clock"),
+    now: ({ world }) => (world === null || world.pace === pace ? null : { label: t("clock.speed_set", { pace: paceText(pace) }), turns: [[{ do: "set", parameter: "playback_speed", value: pace }]] }),
+  }));
 }
 
 /** @param {1 | -1} direction @param {string} keyName @returns {Command} */

@@ -1,9 +1,9 @@
 // @ts-check
-/** Who drives: the planner, chosen from all there are, or the person at the page. */
+/** The planner, chosen from all there are by its name and a line about it; or the person at the page drives. */
 
-import { html, live } from "../../vendor/lit-html.js";
-import { t } from "../core/texts.js";
+import { hasText, t } from "../core/texts.js";
 import { PLANNERS, plannerName } from "../core/words.js";
+import { createMenu } from "../ui/menu.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Page } from "../core/page.js" */
@@ -21,16 +21,42 @@ const driverOf = (world) => (world.mode === PERSON ? PERSON : world.planner);
 /** @param {string} name */
 const nameOf = (name) => (name === PERSON ? t("driver.person") : plannerName(name));
 
-/** The choice of the driver. @param {State} state @param {Page} page */
-export function driverChoice({ connection, past, world }, page) {
+/** @param {string} name */
+const chosenText = (name) => (name === PERSON ? t("driver.you") : t("driver.chosen", { name: nameOf(name) }));
+
+/**
+ * The picker, in an element of its own that stays while the figures around it are rendered anew.
+ * @param {Page} page
+ * @returns {{host: HTMLElement, update: (state: State) => void}}
+ */
+export function createPlannerPicker(page) {
+  const host = document.createElement("div");
+  host.id = "planner-menu";
+  host.className = "menu planner";
+  const relabel = createMenu(host, t("units.none"), () => plannerItems(page), t("driver.label"));
+  return {
+    host,
+    update({ connection, past, world }) {
+      relabel(world ? nameOf(driverOf(world)) : t("units.none"), connection.phase !== "live" || past !== null || world === null);
+    },
+  };
+}
+
+/** @param {Page} page */
+function plannerItems(page) {
+  const { world } = page.state();
   const driver = world && driverOf(world);
   // A planner of another package is in no table.
   const all = driver === null || DRIVERS.includes(driver) ? DRIVERS : [...DRIVERS, driver];
-  const off = connection.phase !== "live" || past !== null || world === null;
-  const choose = (/** @type {{target: HTMLSelectElement}} */ { target }) => chooseDriver(target.value, page);
-  return html`<select class="figure-value driver" aria-label=${t("driver.label")} title=${t("driver.title")} ?disabled=${off} @change=${choose}>
-    ${all.map((name) => html`<option value=${name} .selected=${live(name === driver)}>${nameOf(name)}</option>`)}
-  </select>`;
+  return all.map((name) => ({
+    name: `planner-${name}`,
+    label: nameOf(name),
+    note: hasText(`planners_about.${name}`) ? t(`planners_about.${name}`) : "",
+    checked: name === driver,
+    choice: true,
+    closes: true,
+    run: () => chooseDriver(name, page),
+  }));
 }
 
 /** The same from the palette. @returns {Command[]} */
@@ -39,7 +65,7 @@ export function driverCommands() {
     name: `driver-${name}`,
     group: t("groups.driver"),
     now: ({ past, world }) =>
-      world === null || past || driverOf(world) === name ? null : { label: t("driver.chosen", { name: nameOf(name) }), turns: [handOver(name, world)] },
+      world === null || past || driverOf(world) === name ? null : { label: chosenText(name), turns: [handOver(name, world)] },
   }));
 }
 
@@ -59,5 +85,5 @@ export function handOver(name, world) {
 /** @param {string} name @param {Page} page */
 function chooseDriver(name, page) {
   const { world } = page.state();
-  if (world) page.act(handOver(name, world), t("driver.chosen", { name: nameOf(name) }), true);
+  if (world) page.act(handOver(name, world), chosenText(name), true);
 }

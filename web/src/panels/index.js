@@ -2,6 +2,7 @@
 /** The panels of the page, each in a file of its own; a new panel is a file and a line here. */
 
 import { byId } from "../ui/dom.js";
+import { createAppearance } from "./appearance.js";
 import { createAnnouncer } from "../talk/announcer.js";
 import { createCaption } from "../road/caption.js";
 import { createCard } from "../why/bubbleLoader.js";
@@ -23,11 +24,15 @@ import { createServerVideo } from "../road/serverVideoLoader.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
 import { createSchematic } from "./schematic.js";
+import { createSettings } from "./settingsLoader.js";
 import { createSessionMenu } from "../timeline/sessionMenu.js";
 import { createQuizLoader } from "../talk/quizLoader.js";
+import { createRules } from "./rules.js";
 import { createReader } from "../talk/speech.js";
 import { createStatus } from "./status.js";
+import { createTabs } from "./tabs.js";
 import { createTalk } from "../talk/conversation.js";
+import { createTourLoader } from "./tourLoader.js";
 import { createTimeline } from "../timeline/timeline.js";
 import { createVerdict } from "./verdict.js";
 import { createViews } from "./views.js";
@@ -51,7 +56,7 @@ export function createPanels(page) {
   const card = createCard(byId("bubble"), page);
   return [
     road,
-    createVerdict(byId("road"), page),
+    createVerdict(byId("road"), page, road.places),
     createTimeline(byId("timeline"), page),
     createPast(byId("past"), page),
     createSessionMenu(byId("session-menu"), page),
@@ -62,6 +67,7 @@ export function createPanels(page) {
     createCaption(byId("caption")),
     createControls(byId("controls"), page),
     createLog(byId("log")),
+    createRules(byId("rules"), page),
     createTalk(byId("talk"), page),
     createCommand(byId("command"), page),
     createConnectionBadge(byId("connection"), page),
@@ -70,6 +76,10 @@ export function createPanels(page) {
     card,
     ...createRoadInput(byId("road"), road.places, byId("log"), page, card),
     createViews(byId("views-menu"), page),
+    createTabs(byId("tabs"), page),
+    createAppearance(),
+    createSettings(page),
+    createTourLoader(page),
     createServerVideo(byId("road"), page),
     createLanes(byId("road")),
     createForesight(page),

@@ -1,13 +1,13 @@
 // @ts-check
 /** How well it drives: results of the episodes, and along the run how tight it was and what was lost. */
 
-import { html, render } from "../../vendor/lit-html.js";
+import { html, nothing, render } from "../../vendor/lit-html.js";
 import { decimalText, t } from "../core/texts.js";
 import { readPalette } from "../core/theme.js";
 import { percent } from "../core/words.js";
-import { drawChart } from "../timeline/paint/chart.js";
+import { chartTick, drawChart } from "../timeline/paint/chart.js";
 import { find, fitCanvas } from "../ui/slot.js";
-import { sumOf, WINDOW } from "../why/regret.js";
+import { sumOf, WINDOW, worstMoments } from "../why/regret.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { Metrics } from "../core/protocol.js" */
@@ -33,14 +33,14 @@ export function createMetrics(host, page) {
   /** @type {State | null} */ let newest = null;
 
   function show() {
-    if (newest) render(template({ state: newest, pointed, point, look }), host);
+    if (newest) render(template({ state: newest, pointed, point, look, go: (tick) => void page.timeTravel.at(tick) }), host);
     stale = true;
   }
 
   /** The tick under the pointer. @param {MouseEvent} event */
   function tickAt({ clientX, currentTarget }) {
-    const { left, width } = /** @type {HTMLElement} */ (currentTarget).getBoundingClientRect();
-    return (newest?.world?.tick ?? 0) - WINDOW + Math.floor(((clientX - left) / width) * WINDOW);
+    const { left, width, height } = /** @type {HTMLElement} */ (currentTarget).getBoundingClientRect();
+    return chartTick({ width, height }, clientX - left, newest?.world?.tick ?? 0);
   }
 
   /** @param {MouseEvent} event */
@@ -56,6 +56,11 @@ export function createMetrics(host, page) {
     const tick = tickAt(event);
     if (newest?.regret.items.get(tick)) void page.timeTravel.at(tick);
   }
+
+  new ResizeObserver(() => {
+    stale = true;
+    page.wake();
+  }).observe(host);
 
   return {
     update(state, before) {
@@ -89,8 +94,9 @@ export function createMetrics(host, page) {
  * @param {number} shown.pointed  the tick under the pointer
  * @param {(event: MouseEvent) => void} shown.point
  * @param {(event: MouseEvent) => void} shown.look
+ * @param {(tick: number) => void} shown.go
  */
-function template({ state, pointed, point, look }) {
+function template({ state, pointed, point, look, go }) {
   const world = /** @type {NonNullable<State["world"]>} */ (state.world);
   const { metrics } = world;
   const { regret } = state;
@@ -113,7 +119,20 @@ function template({ state, pointed, point, look }) {
         <figcaption><span class="chart-title">${titles[figure]}</span><span class="chart-told">${values[figure]}</span></figcaption>
         <canvas class="chart-canvas" role="img" aria-label=${labels[figure]} title=${titleOf(regret, pointed)} data-chart=${figure} @pointermove=${point} @click=${look}></canvas>
       </figure>`,
-    )}`;
+    )}
+    ${worst(regret, go)}`;
+}
+
+/** The worst moments, as chess sites list blunders; a press goes there. @param {Regret} regret @param {(tick: number) => void} go */
+function worst(regret, go) {
+  const moments = worstMoments(regret);
+  if (moments.length === 0) return nothing;
+  return html`<div class="worst">
+    <h3 class="chart-title">${t("metrics.worst")}</h3>
+    <ol>
+      ${moments.map(({ tick }) => html`<li><button class="worst-moment" type="button" data-worst=${tick} @click=${() => go(tick)}>${titleOf(regret, tick)}</button></li>`)}
+    </ol>
+  </div>`;
 }
 
 /** @param {Metrics} metrics */

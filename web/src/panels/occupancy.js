@@ -1,5 +1,5 @@
 // @ts-check
-/** The road as the program has it: a matrix of 0 and 1, each 1 in the colour of what stands there. */
+/** The road as the program has it: a matrix of 0 and 1, each 1 in the colour of what stands there; squares where figures could not be read. */
 
 import { html, render } from "../../vendor/lit-html.js";
 import { listText, t } from "../core/texts.js";

@@ -9,7 +9,7 @@
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { capital, t } from "../core/texts.js";
 import { readPalette } from "../core/theme.js";
-import { MOVES, moveName } from "../core/words.js";
+import { MOVES, moveName, reasonWords } from "../core/words.js";
 import { offerPlaces, same } from "../road/hitTest.js";
 import { drawPlan, SPAN } from "../road/paint/plan.js";
 import { egoOf } from "../road/world.js";
@@ -147,7 +147,14 @@ export function sightOf(state) {
       : moving;
   const ego = seen && egoOf(seen.world);
   if (!seen || !ego) return null;
-  return { ...seen, centre: ego.cell, ways: seen.decision ? moveOptions(seen.decision, ego.cell) : [] };
+  const ways = seen.decision ? moveOptions(seen.decision, ego.cell) : [];
+  return { ...seen, centre: ego.cell, ways: state.world.mode === "manual" ? ways.map(unranked) : ways };
+}
+
+/** A move where a person drives: free or not, without what a planner would make of it. @param {MoveOption} way @returns {MoveOption} */
+function unranked(way) {
+  const blocked = way.standing === "blocked" || way.standing === "off_road" || way.ids.length > 0;
+  return blocked ? { ...way, standing: way.standing === "taken" ? "blocked" : way.standing } : { ...way, standing: "free", reason: reasonWords("free") };
 }
 
 /** Where what is pointed at stands now; where it stood, if it is gone. @param {State["highlight"]} lit @param {World} world @returns {Cell[]} */

@@ -1,11 +1,11 @@
 // @ts-check
-/** The instruments: figures of the drive and of the session so far, and who drives. */
+/** The instruments: figures of the drive and of the session so far, and the planner. */
 
 import { html, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { clock, percent } from "../core/words.js";
 import { speedKmh, toGo } from "../road/world.js";
-import { driverCommands, driverChoice } from "./driver.js";
+import { createPlannerPicker, driverCommands } from "./driver.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
@@ -37,13 +37,15 @@ const FIGURES = [
 
 /** @param {HTMLElement} host  a definition list @param {Page} page @returns {Panel} */
 export function createStatus(host, page) {
+  const planner = createPlannerPicker(page);
   return {
     commands: driverCommands(),
 
     update(state) {
+      planner.update(state);
       render(
         html`${FIGURES.map((figure) => figureRow(figure, state))}
-          <div class="figure" data-figure="driver"><dt>${t("driver.label")}</dt><dd>${driverChoice(state, page)}</dd></div>`,
+          <div class="figure" data-figure="driver"><dt>${t("driver.label")}</dt><dd>${planner.host}</dd></div>`,
         host,
       );
     },

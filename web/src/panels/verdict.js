@@ -3,43 +3,73 @@
 
 import { html, nothing } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
+import { egoOf } from "../road/world.js";
 import { createSlot } from "../ui/slot.js";
+import { endingTemplate, endOf, endsNow, goOn } from "./ending.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
+/** @import { Places } from "../road/hitTest.js" */
 /** @import { Panel } from "./index.js" */
 
 /** @typedef {{title: string, tone: string, text?: string, offer?: string}} Verdict */
 
 const TONES = /** @type {Record<string, string>} */ ({ crash: "bad", success: "good", stuck: "bad" });
 
-/** Events that tell of a road and not of an end. */
-const OF_ROADS = new Set(["episode_started", "road_kept", "no_way", "way_open"]);
-
-/** @param {HTMLElement} host @param {Page} page @returns {Panel} */
-export function createVerdict(host, page) {
+/** @param {HTMLElement} host  the road @param {Page} page @param {Places} places  of the road @returns {Panel} */
+export function createVerdict(host, page, places) {
   const show = createSlot(host);
   /** What is shown, and of what: an end keeps the words it came with. */
   let key = "";
   /** @type {Verdict | null} */ let verdict = null;
 
   return {
-    update(state) {
+    commands: [
+      {
+        name: "next-episode",
+        group: t("groups.clock"),
+        key: "e",
+        keyName: "E",
+        now: ({ past, world, log }) =>
+          world && !past && world.status !== "running"
+            ? { label: t("ending.next"), run: () => void goOn(page, endOf({ .../** @type {State} */ (page.state()), log })?.to ?? world.tick) }
+            : null,
+      },
+    ],
+
+    update(state, before) {
       const next = keyOf(state);
       if (next !== key) verdict = next === "" ? null : verdictOf(state);
       key = next;
+      const ended = verdict !== null && state.world !== null && state.world.status !== "running" && !state.trouble;
+      if (endsNow(state, before)) page.act([{ do: "pause" }], t("clock.pause"), true);
+      host.toggleAttribute("data-ended", ended && state.past === null);
       const paused = state.world?.paused && state.world.status === "running";
-      show(html`${verdict ? over(verdict, page) : nothing}${paused ? html`<p class="paused">${t("verdict.paused")}</p>` : nothing}`);
+      const more = ended && state.past === null && state.connection.phase === "live" ? endingTemplate(state, page) : nothing;
+      show(html`${verdict ? over(verdict, more, page) : nothing}${paused ? html`<p class="paused">${t("verdict.paused")}</p>` : nothing}`);
+    },
+
+    /** The card stands where the crash is not. */
+    draw() {
+      const card = /** @type {HTMLElement | null} */ (host.querySelector(".verdict"));
+      const { world } = page.state();
+      const cell = world && (world.cause?.cell ?? egoOf(world)?.cell);
+      const place = card && cell && places.placeOf(cell);
+      if (!card || !place) return false;
+      const { top, height } = host.getBoundingClientRect();
+      card.dataset.at = place.top + place.height / 2 > top + height / 2 ? "top" : "bottom";
+      return false;
     },
   };
 }
 
-/** @param {Verdict} verdict @param {Page} page */
-function over({ title, tone, text, offer }, page) {
+/** @param {Verdict} verdict @param {unknown} more  what can be done about an end @param {Page} page */
+function over({ title, tone, text, offer }, more, page) {
   return html`<div class="verdict" data-tone=${tone}>
     <p class="verdict-title">${title}</p>
     ${text ? html`<p class="verdict-text">${text}</p>` : nothing}
     ${offer ? html`<button class="button strong" type="button" @click=${page.startSession}>${offer}</button>` : nothing}
+    ${more}
   </div>`;
 }
 
@@ -61,6 +91,5 @@ function verdictOf(state) {
   if (phase === "gone") return { title: t("verdict.ended"), tone: "plain", text: t("verdict.ended_text"), offer: t("verdict.new_session") };
   const { world } = state;
   if (world === null) return { title: t("verdict.waiting"), tone: "plain", text: t("verdict.waiting_text") };
-  const last = state.log.findLast(({ tone, type }) => tone === "event" && !OF_ROADS.has(type));
-  return { title: t(`verdict.${world.status}`), tone: TONES[world.status] ?? "plain", text: last?.text };
+  return { title: t(`verdict.${world.status}`), tone: TONES[world.status] ?? "plain", text: endOf(state)?.text };
 }

@@ -10,9 +10,12 @@ import { keepViews, LAYERS, PARTS, viewsLeft } from "../ui/views.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Page } from "../core/page.js" */
+/** @import { Action } from "../core/protocol.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "./index.js" */
 
+/** What the service tells to every page that watches, where it is said. */
+const TOLD_TO_ALL = new Set([...PARTS, "path", "potholes"]);
 /** What can be enlarged. */
 const LARGE = [...PARTS.filter((name) => name !== "schematic"), "talk"];
 
@@ -115,7 +118,11 @@ function viewCommands(toggle, enlarge) {
     group,
     key,
     keyName: key,
-    now: ({ views }) => ({ label: t(views[name] ? "views.hide" : "views.show", { name: theName(name) }), run: () => toggle(name) }),
+    now: ({ views }) => ({
+      label: t(views[name] ? "views.hide" : "views.show", { name: theName(name) }),
+      run: () => toggle(name),
+      ...(TOLD_TO_ALL.has(name) ? { said: [/** @type {Action} */ ({ do: views[name] ? "hide" : "show", view: name })] } : {}),
+    }),
   });
   return [
     ...PARTS.map((name, at) => toggling(name, String(at + 1))),

@@ -135,7 +135,7 @@ class DragDrop {
     this.tray.press(kind);
     this.host.toggleAttribute("data-placing", kind !== null);
     if (kind === null) this.target.hidden = true;
-    else this.tell(t("edit.click", { name: nounOf({ kind }) }));
+    else this.tell(t(`edit.click.${kind}`));
   }
 
   /** @param {Held} what */

@@ -7,14 +7,14 @@ import { t } from "../core/texts.js";
 /** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
 
-/** @param {HTMLElement} host  the road @param {Page} page @returns {Panel} */
-export function createDriving(host, page) {
+/** @param {HTMLElement} host  the road @param {HTMLElement} place  where one drives, beside it @param {Page} page @returns {Panel} */
+export function createDriving(host, place, page) {
   const manual = lazyPanel(
     page,
     ({ world }) => world?.mode === "manual",
     async () => {
       const [{ createManualDrive }] = await Promise.all([import("./manualDrive.js"), styled("wheel")]);
-      return createManualDrive(host, page);
+      return createManualDrive(host, place, page);
     },
   );
 
@@ -22,12 +22,13 @@ export function createDriving(host, page) {
     commands: [
       {
         name: "manual",
+        button: true,
         group: t("groups.drive"),
         key: "m",
         keyName: "M",
         now: ({ world }) => {
           const mode = world?.mode === "manual" ? "auto" : "manual";
-          return { label: t(`drive.${mode}`), icon: "wheel", turns: [[{ do: "mode", mode }]] };
+          return { label: t(`drive.${mode}`), icon: "wheel", pressed: mode === "auto", turns: [[{ do: "mode", mode }]] };
         },
       },
       {

@@ -17,29 +17,36 @@ import { isArrow, isDriving, moveOf, TOGETHER_MS } from "./drivingKeys.js";
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */
 
+/** So many moves wait at most: a person who drives sees what comes of each. */
+const MOST_WAITING = 3;
+/** While the clock stands a key held down makes a move this often. */
+const HELD_MS = 180;
 /** Where the keys mean something else. */
 const BUSY = "input, textarea, select, [contenteditable], dialog, .beside, [role=slider], [role=menu], [role=listbox], [role=tablist]";
 const PAD = /** @type {Move[]} */ (["forward_left", "forward", "forward_right", "left", "stay", "right"]);
 
 const howText = () => t(matchMedia("(pointer: coarse)").matches ? "drive.touch" : "drive.keys");
 
-/** @param {HTMLElement} host  the road @param {Page} page @returns {Panel} */
-export function createManualDrive(host, page) {
-  const show = createSlot(host);
+/** @param {HTMLElement} host  the road @param {HTMLElement} place  beside it @param {Page} page @returns {Panel} */
+export function createManualDrive(host, place, page) {
+  const show = createSlot(place);
   /** The tick of the latest move of a key held down: one a tick is enough. */
   let drivenAt = -1;
+  let drivenMs = 0;
   let words = "";
 
   /** @param {Move} move */
   function drive(move) {
     const { world } = page.state();
-    if (world === null) return;
+    if (world === null || world.status !== "running") return; // a result stays to be seen
+    if (page.state().queue.length >= MOST_WAITING) return;
     drivenAt = world.tick;
+    drivenMs = performance.now();
     page.act([{ do: "drive", move }], t("drive.move", { move: moveName(move) }), true);
     if (world.paused) page.act([{ do: "step", ticks: 1 }], t("clock.step"), true);
   }
 
-  const keys = watchDrivingKeys(page, drive, () => drivenAt);
+  const keys = watchDrivingKeys(page, drive, () => (page.state().world?.paused && performance.now() - drivenMs < HELD_MS ? Infinity : drivenAt));
 
   return {
     update(state, before) {
@@ -50,7 +57,7 @@ export function createManualDrive(host, page) {
       if (on && (before.world?.mode !== "manual" || words === "")) words = howText();
       const back = on ? heldBack(state) : null;
       if (back) words = back;
-      show(template({ on, ended: world?.status !== "running", words, held: back !== null, drive, page }));
+      show(template({ on, ended: world?.status !== "running", words, queue: state.queue, held: back !== null, drive, page }));
     },
   };
 }
@@ -62,26 +69,31 @@ function heldBack({ log }) {
   return back && line && back.to >= line.to - 1 ? back.text : null;
 }
 
+/** @param {Move} move */
+const arrowOf = (move) => (move === "stay" ? "•" : (MOVES[move]?.arrow ?? move));
+
 /**
  * @param {object} shown
  * @param {boolean} shown.on
  * @param {boolean} shown.ended  nothing is driven before the next episode begins
  * @param {string} shown.words
+ * @param {string[]} shown.queue
  * @param {boolean} shown.held
  * @param {(move: Move) => void} shown.drive
  * @param {Page} shown.page
  */
-function template({ on, ended, words, held, drive, page }) {
+function template({ on, ended, words, queue, held, drive, page }) {
   const end = () => void page.act([{ do: "mode", mode: "auto" }], t("drive.auto"), true);
   return html`<div class="driving" ?hidden=${!on} ?data-held=${held}>
     <div class="drive-side">
       <p class="drive-words" role="status" ?hidden=${ended}>${words}</p>
+      <p class="drive-queue" ?hidden=${queue.length === 0}>${t("drive.next", { moves: queue.map((move) => arrowOf(/** @type {Move} */ (move))).join(" ") })}</p>
       <button class="drive-end" type="button" @click=${end}>${t("drive.auto")}</button>
     </div>
     <div class="drive-pad" role="group" aria-label=${t("drive.label")} ?hidden=${ended}>
       ${PAD.map(
         (move) =>
-          html`<button class="drive-move" type="button" data-move=${move} aria-label=${moveName(move)} @click=${() => drive(move)}>${move === "stay" ? "•" : MOVES[move].arrow}</button>`,
+          html`<button class="drive-move" type="button" data-move=${move} aria-label=${moveName(move)} @click=${() => drive(move)}>${arrowOf(move)}</button>`,
       )}
     </div>
   </div>`;

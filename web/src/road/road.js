@@ -12,6 +12,8 @@ import { drawBoxes, drawForecast, drawHazards } from "./paint/overlays.js";
 import { Sprites } from "./paint/sprites.js";
 import { drawLines, laySurface, surfaceTile } from "./paint/surface.js";
 import { drawLight, drawThing, isFixed } from "./paint/things.js";
+import { drawMarks, drawWeather } from "./paint/weather.js";
+import { Sensed } from "./sensed.js";
 import { readPalette, wantsStillness } from "../core/theme.js";
 import { describe, egoOf } from "./world.js";
 
@@ -43,6 +45,7 @@ class RoadView {
   stage = new Stage();
   camera = new Camera();
   sprites = new Sprites();
+  sensed = new Sensed();
   palette = readPalette(document.documentElement);
   /** @type {State | null} */ state = null;
   /** @type {View | null} */ view = null;
@@ -68,6 +71,7 @@ class RoadView {
     const { world } = next;
     const before = this.state?.world;
     this.state = next;
+    this.sensed.update(next);
     if (world === null || world === before) return;
     if (before && (before.columns !== world.columns || before.visibleRows !== world.visibleRows)) this.view = null;
     if (before && before.episode !== world.episode) this.camera.top = null;
@@ -118,7 +122,11 @@ class RoadView {
     const progress = still ? 1 : stage.progress(now);
     const moment = { pen, sprites, palette, progress, now: still ? 0 : now, state, world, seen };
     drawMoment(moment, egoPose, stage.trail.slice(0, -1), world.status === "crash" ? stage.touch(now) : null);
-    return scrolling || stage.moving(now);
+    const marks = this.sensed.of(world);
+    if (marks) drawMarks(pen, seen, marks, palette);
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    drawWeather(pen, view, world, world.tick + progress, palette);
+    return scrolling || stage.moving(now) || this.sensed.waiting;
   }
 }
 
@@ -181,7 +189,7 @@ function drawCauses({ pen, palette, progress, state, seen }) {
 /** Where the vehicle is about to be. @param {Moment} moment @param {Pose} ego */
 function drawIntent({ pen, palette, progress, state, world }, { thing, column, row }) {
   // What comes next is shown once the move before it is made.
-  const next = progress === 1 && world.paused ? foreseen(state)?.decision : null;
+  const next = progress === 1 && world.paused && world.mode !== "manual" ? foreseen(state)?.decision : null;
   if (next) {
     const [across, down] = STEPS[next.move];
     if (next.move === "stay") drawWait(pen, [column, row], 0, palette);

@@ -35,7 +35,7 @@ export function createRoadInput(host, places, log, page, card) {
   offerPlaces(surface, seen);
   watchPointing(page, card, log);
   const hands = createDragDrop(host, surface, seen, page, card);
-  return [hands, createCursor(surface, seen, page, card, hands), createDriving(host, page)];
+  return [hands, createCursor(surface, seen, page, card, hands), createDriving(host, document.getElementById("driving") ?? host, page)];
 }
 
 /**

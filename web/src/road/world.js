@@ -3,7 +3,7 @@
 
 import { hasText, listText, t } from "../core/texts.js";
 
-/** @import { Kind } from "../core/wire.js" */
+/** @import { Kind, Rule } from "../core/wire.js" */
 /** @import { WireState, TickMessage, Cell, Status, Metrics, Move } from "../core/protocol.js" */
 
 /**
@@ -30,8 +30,12 @@ import { hasText, listText, t } from "../core/texts.js";
  * @property {number | "max"} pace  how fast the clock plays
  * @property {string} mode
  * @property {string} planner
+ * @property {string} sensor
+ * @property {string} weather
+ * @property {string} light  time of day
  * @property {Map<string, Thing>} things
  * @property {Metrics} metrics
+ * @property {readonly Rule[]} rules  those that stand
  */
 
 const CELL_M = 5;
@@ -56,8 +60,12 @@ export function worldOf(state) {
     pace: state.playback_speed ?? 1,
     mode: state.mode,
     planner: state.planner,
+    sensor: state.sensor ?? "perfect",
+    weather: state.weather ?? "clear",
+    light: state.time_of_day ?? "day",
     things,
     metrics: state.metrics,
+    rules: state.rules ?? [],
   };
 }
 

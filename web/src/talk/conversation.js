@@ -6,6 +6,8 @@ import { onDemand } from "../core/lazy.js";
 import { t } from "../core/texts.js";
 import { standingOf } from "../core/undoStack.js";
 import { LAYOUTS, layoutName } from "../core/words.js";
+import { openGallery } from "../timeline/sessionMenu.js";
+import { beginTour } from "../panels/tourLoader.js";
 import { openQuestion, shown } from "./exchanges.js";
 
 /** @import { Command } from "../core/commands.js" */
@@ -80,6 +82,8 @@ function welcome(page) {
       ${t("talk.families")}
       ${LAYOUTS.map(layoutName).map((words) => html`<button class="family" type="button" @click=${() => page.say(words)}>${words}</button>`)}
     </p>
+    <p class="families"><button class="button small" type="button" @click=${() => openGallery(page)}>${t("gallery.open")}</button>
+      <button class="button small" type="button" @click=${() => beginTour(page)}>${t("tour.begin")}</button></p>
   </div>`;
 }
 

@@ -34,6 +34,7 @@ function resultTemplate(result, page, undos, taken) {
   const settings = changes.filter((change) => !onRoad.includes(change));
   return html`${(result.corrections ?? []).map(correction)}
     ${result.answer ? answerTemplate(result.answer, result.reply, page) : html`<p class="reply">${result.reply.replaceAll(" → ", "\u00a0→\u00a0")}</p>`}
+    ${(result.evaluations ?? []).map(reportLink)}
     ${
       // A thing moved changes no figure, and can be taken back all the same.
       changes.length > 0 || undos > 0 || taken
@@ -51,6 +52,14 @@ function resultTemplate(result, page, undos, taken) {
           </details>`
         : nothing
     }`;
+}
+
+/**
+ * Where the report of an evaluation will be, and how far it is until then.
+ * @param {{links: {[name: string]: string}}} evaluation
+ */
+function reportLink({ links }) {
+  return html`<p class="report-link"><a href=${links.report} target="_blank" rel="noopener">${t("exchange.report")}</a></p>`;
 }
 
 /** A word that was read as another. @param {{from: string, to: string}} read */
@@ -89,7 +98,8 @@ function problemTemplate(problem, page, open) {
   return html`<p class="reply">${problem.detail || problem.title}</p>
     ${errors.length > 0 ? html`<ul class="errors">${errors.map(({ message }) => html`<li>${message}</li>`)}</ul>` : nothing}
     ${
-      choices.length > 0
+      // Once a question is answered or dropped its choices say something else, or nothing.
+      choices.length > 0 && (open || !problem.pending)
         ? offers(t("exchange.choices"), [
             ...choices.map(({ text, actions }) => offer(text, () => page.act(actions, text))),
             open ? dropButton(page) : nothing,

@@ -12,6 +12,7 @@
  * @property {"pending" | "done" | "refused" | "unknown"} standing  "unknown": the connection was lost before the answer
  * @property {CommandResult | null} result
  * @property {Problem | null} problem
+ * @property {boolean} [closed]  its question waits for no answer any more
  */
 
 export const TALK_EXCHANGES = 100;
@@ -28,6 +29,12 @@ export function answerExchange(talk, id, result) {
   return replaced(talk, id, { standing: "done", result });
 }
 
+/** What the page did by itself. @param {Exchange[]} talk @param {{id: string, text: string, reply: string}} done @returns {Exchange[]} */
+export function answerHere(talk, { id, text, reply }) {
+  const result = /** @type {CommandResult} */ (/** @type {unknown} */ ({ text, reply, actions: [], changes: [], corrections: [], answer: null }));
+  return answerExchange(talk, id, result);
+}
+
 /** @param {Exchange[]} talk @param {string} id @param {Problem} problem @returns {Exchange[]} */
 export function refuseExchange(talk, id, problem) {
   return replaced(talk, id, { standing: "refused", problem });
@@ -42,7 +49,7 @@ export function refuseExchange(talk, id, problem) {
 export function openQuestion(talk) {
   /** @type {Exchange | null} */ let open = null;
   for (const exchange of talk) {
-    if (exchange.problem?.pending) open = exchange;
+    if (exchange.problem?.pending && !exchange.closed) open = exchange;
     else if (open !== null && exchange.standing === "done" && endsQuestion(exchange, open)) open = null;
   }
   return open?.id ?? null;
@@ -64,7 +71,9 @@ function endsQuestion({ result, quiet }, open) {
  * @returns {Exchange[]}
  */
 export function withQuestion(talk, pending) {
-  if (!pending || openQuestion(talk) !== null) return talk;
+  const open = openQuestion(talk);
+  if (!pending) return open === null ? talk : replaced(talk, open, { closed: true }); // a restart has dropped it
+  if (open !== null) return talk;
   const { text, question, choices } = pending;
   /** @type {Problem} */
   const problem = { type: "/problems/ambiguous", title: "", status: 409, detail: question, errors: [], choices, pending };
@@ -87,14 +96,14 @@ export function endUnanswered(talk) {
 
 /**
  * Those exchanges that are worth showing: all that was said, and of buttons and keys what changed
- * something or was refused (pausing shows on the road itself).
+ * something or was refused (pausing, and moves that were asked for, show on the road itself).
  * @param {Exchange[]} talk
  * @returns {Exchange[]}
  */
 export function shown(talk) {
   return talk.filter(
     ({ quiet, standing, result }) =>
-      !quiet || standing === "refused" || standing === "unknown" || changesOf(result).length > 0 || result?.answer,
+      !quiet || standing === "refused" || standing === "unknown" || changesOf(result).some(({ path }) => path !== "queue") || result?.answer,
   );
 }
 

@@ -73,8 +73,8 @@ export function logChange(log, message) {
   const last = log.at(-1);
   // What was found out beside the clock: the reply is the last event's own text.
   if (message.text === null && paths.length === 0 && message.reply === kept.at(-1)?.text) return logEvents(log, events);
-  if (last && paths.length > 0 && paths.every((path) => path === "tick")) {
-    // A step is told by its ticks. Its number is kept, so that it is not written after a reconnect either.
+  if (last && paths.length > 0 && message.text === null && paths.every((path) => path === "tick" || path === "queue")) {
+    // A step is told by its ticks, and a key that drives by the move it makes. Its number is kept, so that it is not written after a reconnect either.
     return trimmed([...log.slice(0, -1), { ...last, number: Math.max(last.number, number) }, ...others]);
   }
   /** @type {Line} */

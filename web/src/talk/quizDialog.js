@@ -2,10 +2,11 @@
 /** The quiz: what will it do next, and why? Before and after explanations, then two scales, then the scores. */
 
 import { html, nothing, repeat } from "../../vendor/lit-html.js";
-import { LANGUAGE, t } from "../core/texts.js";
+import { LANGUAGE, listText, t } from "../core/texts.js";
 import { save } from "../timeline/downloads.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
 import { resultText, scoreOf } from "./quizResult.js";
+import { quizRoad, thingsIn } from "./quizRoad.js";
 
 /** @import { Choice, Given, Quiz, Rated, Situation } from "./quizResult.js" */
 
@@ -49,8 +50,8 @@ function situationForm(shown, situation, show) {
   };
   return html`<form class="form" @submit=${submit}>
     <p class="dialog-note">${quiz.phases[situation.phase]} ${t("quiz.road", { number: own.indexOf(situation) + 1, count: own.length })}</p>
-    <pre class="quiz-road" role="img" aria-label=${t("quiz.picture")}>${situation.picture.map((row) => [...row].join(" ")).join("\n")}</pre>
-    <p class="dialog-note">${quiz.signs}</p>
+    ${quizRoad(situation.picture, `${t("quiz.picture")}: ${wordsOf(situation.picture)}`)}
+    <p class="dialog-note">${t("quiz.blue")}</p>
     ${
       situation.phase === "explained"
         ? html`<p><b>${t("quiz.did", { move: quiz.moves.find(({ id }) => id === situation.right.move)?.text ?? "" })}</b></p>
@@ -59,6 +60,18 @@ function situationForm(shown, situation, show) {
     }
     <button class="button strong" type="submit">${t("quiz.next")}</button>
   </form>`;
+}
+
+/** The picture for those who do not see it: what is where, as seen from the vehicle. @param {string[]} rows */
+function wordsOf(rows) {
+  const things = thingsIn(rows);
+  const own = things.find(({ kind }) => kind === "av");
+  const placed = things.filter(({ kind }) => kind !== "av").map((thing) => {
+    const across = thing.cell[0] - (own?.cell[0] ?? 0);
+    const side = across === 0 ? t("moves.forward") : t("quiz.aside", { count: Math.abs(across), side: t(across < 0 ? "moves.left" : "moves.right") });
+    return t("quiz.thing", { thing: t(`kinds.${thing.kind}`), ahead: (own?.cell[1] ?? 0) - thing.cell[1], side });
+  });
+  return listText(placed);
 }
 
 /** @param {string} name @param {string} label @param {Choice[]} each */

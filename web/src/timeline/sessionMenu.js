@@ -18,7 +18,7 @@ import { forks } from "./links.js";
 /** What stands in the session's menu, in this order; null is a line. */
 const MENU = [
   "share", "fork", "open-fork", "rewind", "origin", null, "save-moment", "moments", null,
-  "picture", "video", "recording", "open-recording", null, "quiz", null, "sessions", "new-session",
+  "picture", "video", "recording", "open-recording", null, "quiz", "settings", null, "gallery", "sessions", "new-session",
 ];
 
 /** @typedef {{link: (url: string, what: string) => void, moments: (naming: boolean) => void, sessions: () => void}} Dialogs */
@@ -106,6 +106,17 @@ function forkCommands() {
   ];
 }
 
+/** @type {ReturnType<typeof onDemand<() => void>> | null} */ let gallery = null;
+
+/** @param {Page} page */
+export function openGallery(page) {
+  gallery ??= onDemand(page, async () => {
+    const [{ createGallery }] = await Promise.all([import("./galleryDialog.js"), styled("dialog"), styled("gallery")]);
+    return createGallery();
+  });
+  void gallery((open) => open());
+}
+
 /** @param {Page} page @param {(use: (dialogs: Dialogs) => void) => void} dialogs @returns {Command[]} */
 function keptCommands(page, dialogs) {
   const group = t("groups.session");
@@ -113,6 +124,7 @@ function keptCommands(page, dialogs) {
     { name: "save-moment", group, now: () => ({ label: t("session.save_moment"), run: () => dialogs(({ moments }) => moments(true)) }) },
     { name: "moments", group, now: () => ({ label: t("session.moments"), run: () => dialogs(({ moments }) => moments(false)) }) },
     { name: "sessions", group, now: () => ({ label: t("session.sessions"), run: () => dialogs(({ sessions }) => sessions()) }) },
+    { name: "gallery", group, now: () => ({ label: t("gallery.open"), run: () => void openGallery(page) }) },
     { name: "new-session", group, now: () => ({ label: t("session.new"), run: () => page.startSession() }) },
   ];
 }

@@ -155,7 +155,8 @@ export class TimeTravel {
     }
     // What was just changed is to be seen.
     const latest = state.talk.at(-1);
-    if (latest?.standing === "done" && latest !== before.talk.at(-1) && changesOf(latest.result).some(({ path }) => path !== "playback_speed")) {
+    const answered = latest?.standing === "done" && before.talk.some(({ id, standing }) => id === latest.id && standing === "pending");
+    if (answered && changesOf(latest.result).some(({ path }) => path !== "playback_speed")) {
       return this.live();
     }
     const reopened = before.past !== null && state.past === null && state.look.tick !== null;

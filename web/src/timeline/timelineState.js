@@ -38,7 +38,7 @@ import { egoOf } from "../road/world.js";
 /**
  * Answers to requests about it. A `version` is that of the timeline when the request was sent.
  * @typedef {{type: "timeline-page", version: number, from: number, moves: string, marks: Pick<TimelineMark, "tick" | "kind" | "ids">[]}
- *   | {type: "timeline-changes", items: Pick<RoadChange, "tick" | "sequence" | "text">[], more: boolean, forks: Fork[]}
+ *   | {type: "timeline-changes", items: RoadChange[], more: boolean, forks: Fork[]}
  *   | {type: "timeline-trouble", text: string | null}
  *   | {type: "timeline-loading", loading: boolean}} LoaderEvent
  */

@@ -33,10 +33,10 @@ export function moveOptions(decision, from) {
 
 /**
  * What spoke for or against a move: the service's words, or where the stream tells only a code, that in a word or two.
- * @param {{text?: string, reason: string}} option
+ * @param {{text?: string, reason: string, causes?: string[]}} option
  */
-export function optionText({ text, reason }) {
-  return text ?? reasonWords(reason);
+export function optionText({ text, reason, causes }) {
+  return text ?? reasonWords(reason, causes);
 }
 
 /** A move with what spoke for or against it, as a line. @param {Option} option */

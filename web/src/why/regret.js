@@ -72,6 +72,20 @@ function afterAnswer(regret, { from, items: judged, now }) {
   return { ...regret, items, trouble: null };
 }
 
+/** How many of the worst moments are told. */
+const WORST = 5;
+
+/**
+ * The moments of the run, as far as it is known, in which most was lost, the worst first; of equal ones the tightest.
+ * @param {Regret} regret
+ * @returns {{tick: number, item: Judged}[]}
+ */
+export function worstMoments({ items }) {
+  const weight = (/** @type {Judged} */ { lost, ticks, blocked }) => (lost ? 1_000 : 0) + 10 * (ticks ?? 0) + blocked;
+  const all = [...items].flatMap(([tick, item]) => (item && (item.lost || (item.ticks ?? 0) > 0) ? [{ tick, item }] : []));
+  return all.sort((a, b) => weight(b.item) - weight(a.item) || a.tick - b.tick).slice(0, WORST);
+}
+
 /** The first tick before `tick` whose loss is not known; null where all are. @param {Regret} regret @param {number} tick */
 export function missingFrom({ items }, tick) {
   for (let each = Math.max(0, tick - WINDOW); each < tick; each++) {

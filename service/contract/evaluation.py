@@ -1,0 +1,76 @@
+"""Evaluations: many episodes in the background, how far they are, and what came of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from service.contract.model import Answered, DocumentedAs, Model, Page
+
+StateName = Annotated[str, DocumentedAs(Literal["queued", "running", "done", "failed", "cancelled"])]
+Fraction = Annotated[float, Field(ge=0, le=1)]
+
+
+@dataclass(frozen=True, slots=True)
+class StartedEvaluation(Model):
+    """An evaluation that a sentence or an action has started."""
+
+    id: str
+    links: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EvaluationSummary(Answered):
+    """An evaluation in a list."""
+
+    id: str
+    state: StateName
+    created_at: str
+    title: str
+    """What it runs, in words."""
+    progress: Fraction
+    """The share of the episodes that are done."""
+    links: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Evaluation(Answered):
+    """An evaluation as it stands."""
+
+    id: str
+    state: StateName
+    created_at: str
+    title: str
+    """What it runs, in words."""
+    runs: int
+    """Episodes of each planner."""
+    planners: tuple[str, ...]
+    seed: int
+    """Episode i is drawn from this seed + i, for every planner."""
+    config: Mapping[str, Any]
+    """What the roads are drawn from."""
+    same_road: bool
+    """Whether all episodes start from one road, that of the session it was asked of."""
+    done: int
+    """Episodes that are done."""
+    progress: Fraction
+    """The share of the episodes that are done."""
+    text: tuple[str, ...] | None
+    """What came of it in plain language, once it is done."""
+    result: Mapping[str, Any] | None
+    """The figures, once it is done."""
+    error: str | None
+    """Why it failed."""
+    links: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EvaluationPage(Page[EvaluationSummary]):
+    """Evaluations, newest first."""
+
+    items: tuple[EvaluationSummary, ...]
+    after: str | None
+    more: bool

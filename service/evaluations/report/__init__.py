@@ -1,0 +1,1 @@
+"""Reports of evaluations: one document, written as HTML, Markdown or JSON, and the episodes as CSV."""

@@ -1,0 +1,71 @@
+"""From an action to the evaluation that it asks for, on the road that it is asked of."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Final
+
+from service.actions import Evaluate
+from sim.actions import Scenario
+from sim.config import Config, ConfigError, Problem
+from sim.evaluate.spec import MAX_EPISODES, Evaluation, EvaluationError
+from sim.planner_names import PROMISED
+from sim.randomness import MAX_SEED
+from sim.session.scenario import config_of_scenario, find_unavailable
+from sim.state import SimState
+from sim.types import Outcome
+from sim.world.notation import write
+
+RUNS: Final = 100
+"""Episodes of each planner where no number is said."""
+
+
+def evaluation_of(
+    action: Evaluate, config: Config, state: SimState | None = None, seed: int | None = None
+) -> Evaluation:
+    """The evaluation that is asked for; checked, down to whether its road has a way to the goal.
+
+    Its roads are drawn from a configuration, or from the scenario that is said; with `road` it is the one of
+    `state`, from this moment on. The first seed is that of the configuration unless another is given.
+    Raises `EvaluationError`.
+    """
+    if missing := unavailable_part(action):
+        raise EvaluationError((missing,))
+    config = _config_of(action, config)
+    world = None
+    if action.road is not None:
+        if state is None or state.world.outcome is not Outcome.RUNNING or len(state.world.avs) != 1:
+            raise EvaluationError((Problem("road", "has_no_start"),))
+        world = write(state.world)
+    planners = action.planners or (config.planner,)
+    first = config.seed if config.seed <= MAX_SEED - MAX_EPISODES else 0
+    spec = Evaluation(
+        planners=planners,
+        episodes=RUNS if action.runs is None else action.runs,
+        config=config,
+        seed=first if seed is None else seed,
+        world=world,
+    )
+    spec.check_road()
+    return spec
+
+
+def unavailable_part(action: Evaluate) -> Problem | None:
+    """The first thing that is asked for and that this version lacks."""
+    for planner in action.planners or ():
+        if planner in PROMISED:
+            return Problem("planners", "planner_not_available", value=planner)
+    return None if action.scenario is None else find_unavailable(Scenario(**asdict(action.scenario)))
+
+
+def _config_of(action: Evaluate, config: Config) -> Config:
+    """The configuration that the roads are drawn from. Raises `EvaluationError`."""
+    if action.scenario is None:
+        return config
+    scenario = Scenario(**asdict(action.scenario))
+    try:
+        made = config_of_scenario(config, scenario)
+    except ConfigError as error:
+        raise EvaluationError(error.problems) from error
+    # Planners are named beside the scenario; without any, the one that drives is meant.
+    return made if scenario.planner else made.with_parts(planner=config.planner)

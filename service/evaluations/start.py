@@ -1,0 +1,32 @@
+"""Starts the evaluations that sessions ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from service.evaluations.kinds import EVALUATION
+from service.jobs import JobRunner
+from service.problems import NotAvailable
+from service.refusals import refusals
+from service.sessions.facts import JobAsked
+from sim.evaluate import Evaluation
+
+
+async def start_evaluation(
+    jobs: JobRunner | None, asked: JobAsked, language: str, session: str | None
+) -> JobAsked:
+    """The fact with the id of the job that was started.
+
+    Raises `NotAvailable` where nothing runs jobs, `QuotaExceeded` or `NotSaved`.
+    """
+    if jobs is None:
+        raise NotAvailable(refusals(language).session("no_jobs"))
+    record = await jobs.start(EVALUATION, job_spec(asked.evaluation, language, session), language=language)
+    return replace(asked, job=record.id)
+
+
+def job_spec(evaluation: Evaluation, language: str, session: str | None) -> Mapping[str, Any]:
+    """What the job is stored with; the language is that of its report."""
+    return {**evaluation.to_json(), "language": language, "session": session}

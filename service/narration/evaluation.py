@@ -1,0 +1,263 @@
+"""Evaluations in words: what was started, and what came of it, the plain language first."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from functools import cache
+from typing import Any, Final
+
+from service.narration.sayings import Sayings
+from service.sessions.facts import JobAsked
+from sim.evaluate.closeness import TTC_S
+from sim.evaluate.spec import Evaluation
+from sim.types import Outcome
+
+REPORT: Final = "/api/v1/evaluations/{id}/report"
+"""Where the report of an evaluation is."""
+LEAST_P: Final = 1e-4
+"""A probability below this is told as less."""
+ALL, MOST, HALF = 1.0, 0.8, 0.5
+"""Shares of failures from which a way of failing is told, and how."""
+
+Json = Mapping[str, Any]
+
+
+@cache
+def evaluation_words(code: str) -> EvaluationWords:
+    """Evaluations in a language; in the default one where there are no sayings in it."""
+    try:
+        return EvaluationWords(Sayings.load(code))
+    except FileNotFoundError:
+        return EvaluationWords(Sayings.load())
+
+
+class EvaluationWords:
+    """Evaluations in one language."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def started(self, fact: JobAsked) -> str:
+        """The reply to what asks for an evaluation."""
+        spec = fact.evaluation
+        parts = {
+            "runs": self._whole(spec.episodes),
+            "planners": self._planners(spec),
+            "where": self._where(spec),
+        }
+        if fact.job is None:
+            return self._say("asked", **parts)
+        form = "one" if len(spec.planners) == 1 else "many"
+        return self._say("started", form, link=REPORT.format(id=fact.job), **parts)
+
+    def ended(self, spec: Evaluation, summary: Json, job_id: str) -> str:
+        """A line for the log of the session that asked for it."""
+        told = " ".join(self._arrived(planner, summary) for planner in spec.planners)
+        return self._say("done", told=told, link=REPORT.format(id=job_id))
+
+    def title(self, spec: Evaluation) -> str:
+        """The heading of a report."""
+        return self._say("title", runs=self._whole(spec.episodes), planners=self._planners(spec))
+
+    def paragraphs(self, spec: Evaluation, summary: Json) -> list[str]:
+        """What came of it: a paragraph for each planner, each comparison, and the roads."""
+        told = [self._planner(planner, summary) for planner in spec.planners]
+        told += [self._compared(each, summary) for each in summary["comparisons"]]
+        told.append(self._roads(spec, summary))
+        return told
+
+    def label(self, *keys: str, **parts: object) -> str:
+        """A word of the report's tables."""
+        return self._sayings.say("evaluation", "report", *keys, **parts)
+
+    def planner(self, name: str) -> str:
+        """A planner as people know it."""
+        return self._sayings.planner(name)
+
+    def percent(self, share: float | None, digits: int = 1) -> str:
+        """A share in per cent, with no more digits than it takes."""
+        if share is None:
+            return "–"
+        return self._sayings.number(float(f"{100 * share:.{digits}f}"))
+
+    def number(self, value: float | None, spec: str = ".2f") -> str:
+        """A number in the marks of the language."""
+        return "–" if value is None else self._sayings.number(value, spec)
+
+    def probability(self, p_value: float) -> str:
+        """A probability, to two digits; a tiny one as less than a limit."""
+        if p_value < LEAST_P:
+            return self._say("below", least=self._sayings.number(LEAST_P, ".4f"))
+        return self._sayings.number(float(f"{p_value:.2g}"))
+
+    # Within
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("evaluation", *keys, **parts)
+
+    def _whole(self, number: int) -> str:
+        return self._sayings.number(number, ",")
+
+    def _planners(self, spec: Evaluation) -> str:
+        return self._sayings.joined([self.planner(name) for name in spec.planners])
+
+    def _where(self, spec: Evaluation) -> str:
+        return self._say("where", "drawn" if spec.world is None else "this", seed=spec.seed)
+
+    def _arrived(self, planner: str, summary: Json) -> str:
+        arrived = summary["planners"][planner]["arrived"]
+        form = {0: "none", arrived["of"]: "all"}.get(arrived["count"], "some")
+        return self._say(
+            "arrived",
+            form,
+            planner=self.planner(planner),
+            runs=self._whole(arrived["of"]),
+            count=self._whole(arrived["count"]),
+            percent=self.percent(arrived["share"]),
+            low=self.percent(arrived["low"]),
+            high=self.percent(arrived["high"]),
+        )
+
+    def _planner(self, planner: str, summary: Json) -> str:
+        figures = summary["planners"][planner]
+        told = [self._arrived(planner, summary)]
+        possible = figures["arrived_where_possible"]
+        if summary["roads"]["unsolvable"]:
+            told.append(
+                self._say("possible", of=self._whole(possible["of"]), count=self._whole(possible["count"]))
+            )
+        crashed, stuck = (figures[name]["count"] for name in ("crashed", "stuck"))
+        if crashed or stuck:
+            form = "both" if crashed and stuck else "crashed" if crashed else "stuck"
+            pattern = self._pattern(planner, summary)
+            told.append(
+                self._say(
+                    "failed",
+                    form,
+                    crashed=self._whole(crashed),
+                    stuck=self._whole(stuck),
+                    pattern=pattern,
+                )
+            )
+        told += self._time(figures)
+        near = figures["close"]["near_misses"]
+        if near["count"]:
+            told.append(
+                self._say(
+                    "near",
+                    count=self._whole(near["count"]),
+                    of=self._whole(near["of"]),
+                    ttc=self._sayings.number(TTC_S),
+                )
+            )
+        return " ".join(told)
+
+    def _time(self, figures: Json) -> list[str]:
+        seconds, lost = figures["seconds"], figures["close"]["lost_s"]
+        if seconds["mean"] is None:
+            return []
+        parts = {name: self.number(seconds[name], ".1f") for name in ("mean", "low", "high")}
+        if lost["mean"] is None:
+            return [self._say("time_only", **parts)]
+        return [self._say("time", lost=self.number(lost["mean"], ".1f"), **parts)]
+
+    def _pattern(self, planner: str, summary: Json) -> str:
+        """How most of the failures that were looked at came about; empty where there is no such way."""
+        failed = [
+            each
+            for each in summary["examples"]
+            if each["planner"] == planner and each["outcome"] != Outcome.SUCCESS and each["solvable"]
+        ]
+        if not failed:
+            return ""
+        (pattern, count), *_ = Counter(each["pattern"] for each in failed).most_common(1)
+        often = self._often(count / len(failed))
+        if pattern is None or often is None:
+            return ""
+        things = Counter(each["thing"] for each in failed if each["pattern"] == pattern)
+        (thing, alike), *_ = things.most_common(1)
+        named = "" if thing is None else self._sayings.say("words", "a", thing)
+        if pattern == "hit":
+            return self._say("pattern", "hit", often=often, thing=named) if thing is not None else ""
+        common = thing is not None and alike >= MOST * count
+        behind = self._say("behind", thing=named) if common else ""
+        return self._say("pattern", pattern, often=often, behind=behind)
+
+    def _often(self, share: float) -> str | None:
+        for least, word in ((ALL, "all"), (MOST, "most"), (HALF, "half")):
+            if share >= least:
+                return self._say("often", word)
+        return None
+
+    def _compared(self, pair: Json, summary: Json) -> str:
+        first, second = self.planner(pair["first"]), self.planner(pair["second"])
+        difference, p_value = pair["difference"], pair["p_value"]
+        form = "better" if difference["share"] > 0 else "worse"
+        if not pair["settled"]:
+            form = "open" if pair["only_first"] or pair["only_second"] else "alike"
+        ends = (difference["low"], difference["high"])
+        low, high = sorted((-ends[0], -ends[1])) if form == "worse" else ends
+        told = [
+            self._say(
+                "compare",
+                form,
+                first=first,
+                second=second,
+                only_first=self._whole(pair["only_first"]),
+                only_second=self._whole(pair["only_second"]),
+                difference=self.percent(difference["share"] if form == "open" else abs(difference["share"])),
+                low=self.percent(low),
+                high=self.percent(high),
+                p=self.probability(p_value),
+            )
+        ]
+        if summary["alike"]:
+            told.clear()
+        if pair["more_runs"]:
+            told.append(self._say("compare", "more", more=self._whole(pair["more_runs"])))
+        return " ".join([*told, *self._quicker(pair, first, second)])
+
+    def _quicker(self, pair: Json, first: str, second: str) -> list[str]:
+        seconds = pair["seconds"]
+        if seconds is None:
+            return []
+        mean = seconds["mean"]
+        if not seconds["first_faster"] and not seconds["second_faster"]:
+            return [self._say("compare", "as_quick")]
+        quicker = mean < 0
+        low, high = sorted((abs(seconds["low"]), abs(seconds["high"])))
+        if seconds["low"] < 0 < seconds["high"]:
+            low, high = sorted(
+                (-seconds["low"], -seconds["high"]) if quicker else (seconds["low"], seconds["high"])
+            )
+        return [
+            self._say(
+                "compare",
+                "quicker" if quicker else "slower",
+                first=first,
+                second=second,
+                seconds=self.number(abs(mean), ".1f"),
+                low=self.number(low, ".1f"),
+                high=self.number(high, ".1f"),
+                count=self._whole(seconds["first_faster" if quicker else "second_faster"]),
+                pairs=self._whole(seconds["pairs"]),
+            )
+        ]
+
+    def _roads(self, spec: Evaluation, summary: Json) -> str:
+        roads, told = summary["roads"], []
+        if spec.world is None:
+            if not roads["unsolvable"] and not roads["unknown"]:
+                told.append(self._say("roads", "all"))
+            if roads["unsolvable"]:
+                runs = self._whole(spec.episodes)
+                told.append(
+                    self._say("roads", "some", unsolvable=self._whole(roads["unsolvable"]), runs=runs)
+                )
+            if roads["unknown"]:
+                told.append(self._say("roads", "unknown", unknown=self._whole(roads["unknown"])))
+        if summary["alike"]:
+            told.append(self._say("alike"))
+        return " ".join(told)

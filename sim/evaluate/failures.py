@@ -1,0 +1,113 @@
+"""Looks at failed episodes one by one: what was hit, how it was stuck, and the tick to look at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from typing import Any, Final, Literal
+
+import numpy as np
+
+from sim.evaluate.executor import CancelledError
+from sim.evaluate.rows import ARRIVED, NO_WAY, ROADS, Rows
+from sim.evaluate.spec import Evaluation
+from sim.state import SimState
+from sim.transition import step
+from sim.types import Move, Outcome, kind_of
+
+MOST: Final = 30
+"""Failed episodes of a planner that are looked at, the first ones."""
+SLOWEST: Final = 1
+"""Arrivals that are looked at beside them, the slowest ones."""
+BEFORE: Final = 4
+"""Ticks before the end of a crash or an arrival at which it is worth looking."""
+_LAST: Final = 8
+"""Moves at the end of a stuck episode that show how it is stuck."""
+
+Pattern = Literal["swinging", "waiting", "hit"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Example:
+    """One episode to look at."""
+
+    planner: str
+    index: int
+    seed: int
+    outcome: Outcome
+    ticks: int
+    tick: int
+    """the tick at which it is worth looking"""
+    digest: str
+    """that of the world at this tick"""
+    solvable: bool
+    """whether the road has a way to the goal, or may have"""
+    pattern: Pattern | None = None
+    """how it failed: moving left and right, or not at all, without getting on; or by hitting something"""
+    thing: str | None = None
+    """the kind of what was hit, or of what lay straight ahead where it was stuck"""
+
+    def to_json(self) -> dict[str, Any]:
+        """As JSON values."""
+        return asdict(self)
+
+
+def examples(spec: Evaluation, rows: Rows, cancelled: Callable[[], bool] = lambda: False) -> list[Example]:
+    """Failures of each planner, those on solvable roads first, and its slowest arrival."""
+    solvable = rows[ROADS]["solvable"] != NO_WAY
+    found = []
+    for planner in spec.planners:
+        for index in _indices(rows[planner]["outcome"], rows[planner]["ticks"], solvable):
+            if cancelled():
+                raise CancelledError
+            found.append(_look(spec, planner, index, bool(solvable[index])))
+    return found
+
+
+def _indices(outcome: Any, ticks: Any, solvable: Any) -> Iterator[int]:
+    failed = outcome != ARRIVED
+    chosen = [*np.flatnonzero(failed & solvable)[:MOST], *np.flatnonzero(failed & ~solvable)[:MOST]][:MOST]
+    yield from map(int, chosen)
+    arrived = np.flatnonzero(~failed)
+    if arrived.size:
+        yield from (
+            int(arrived[place]) for place in np.argsort(-ticks[arrived].astype(int), kind="stable")[:SLOWEST]
+        )
+
+
+def _look(spec: Evaluation, planner: str, index: int, solvable: bool) -> Example:
+    states, moves = [spec.start(index, planner)], []
+    while states[-1].world.outcome is Outcome.RUNNING:
+        done = step(states[-1])
+        states.append(done.state)
+        moves.append(None if done.decision is None else done.decision.move)
+    last = states[-1].world
+    back = min(len(states) - 1, _LAST if last.outcome is Outcome.STUCK else BEFORE)
+    shown = states[-1 - back].world
+    pattern, thing = _pattern(states[-1], moves)
+    return Example(
+        planner=planner,
+        index=index,
+        seed=spec.seed + index,
+        outcome=last.outcome,
+        ticks=len(moves),
+        tick=shown.tick,
+        digest=shown.digest(),
+        solvable=solvable,
+        pattern=pattern,
+        thing=thing,
+    )
+
+
+def _pattern(end: SimState, moves: list[Move | None]) -> tuple[Pattern | None, str | None]:
+    world = end.world
+    if world.outcome is Outcome.CRASH and world.cause is not None:
+        return "hit", str(kind_of(world.cause.ids[0])) if world.cause.ids else None
+    if world.outcome is not Outcome.STUCK:
+        return None, None
+    ahead = world.hazards.get(world.av - world.road.columns)
+    thing = None if ahead is None else str(kind_of(ahead))
+    latest = moves[-_LAST:]
+    if Move.LEFT in latest and Move.RIGHT in latest:
+        return "swinging", thing
+    return ("waiting" if latest.count(Move.STAY) * 2 >= len(latest) else None), thing

@@ -1,0 +1,46 @@
+"""Runs a whole evaluation with an executor, for programs and the command line. The service keeps parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from threading import Event
+from typing import Any
+
+from sim.evaluate.executor import Executor, InProcess
+from sim.evaluate.part import run_part
+from sim.evaluate.rows import join, pack, unpack
+from sim.evaluate.spec import Evaluation, Part
+from sim.evaluate.summary import summarize
+
+
+def pack_part(spec: Mapping[str, Any], piece: Part, cancelled: Callable[[], bool]) -> bytes:
+    """The figures of a part as bytes; all arguments and the answer can be sent to another process."""
+    return pack(run_part(Evaluation.from_json(spec), piece, cancelled))
+
+
+def summarize_parts(
+    spec: Evaluation, parts: Mapping[Part, bytes], cancelled: Callable[[], bool]
+) -> dict[str, Any]:
+    """The summary of all parts. Raises `ValueError` unless each episode is there once."""
+    ordered = sorted(parts)
+    edges = [0, *(part.first + part.count for part in ordered)]
+    if edges[:-1] != [part.first for part in ordered] or edges[-1] != spec.episodes:
+        raise ValueError("episodes are missing, or there twice")
+    return summarize(spec, join([unpack(parts[part]) for part in ordered]), cancelled)
+
+
+def evaluate(
+    spec: Evaluation,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda _: None,
+    cancelled: Event | None = None,
+) -> dict[str, Any] | None:
+    """The summary of an evaluation; None where it was cancelled. `progress` is told the episodes done."""
+    cancelled = cancelled or Event()
+    executor = executor or InProcess()
+    parts: dict[Part, bytes] = {}
+    for piece, body in executor.run(partial(pack_part, spec.to_json()), spec.parts(), cancelled):
+        parts[piece] = body
+        progress(sum(part.count for part in parts))
+    return None if cancelled.is_set() else summarize_parts(spec, parts, cancelled.is_set)

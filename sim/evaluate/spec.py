@@ -1,0 +1,175 @@
+"""What an evaluation runs, checked before any work starts, and the parts that it is cut into."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field, fields, replace
+from functools import cached_property
+from typing import Any, Final
+
+from sim import planner_names
+from sim.config import COUNTS, Config, ConfigError, Problem
+from sim.generation import GenerationError, generate
+from sim.oracle.lower_bounds import can_arrive
+from sim.randomness import MAX_SEED
+from sim.rules.behaviour import DEFAULT_BEHAVIOUR
+from sim.rules.dynamics import DEFAULT_DYNAMICS
+from sim.search.reactive import ImpatientError
+from sim.sensor_names import DEFAULT_SENSOR
+from sim.session.saved_config import saved_config
+from sim.state import SimState
+from sim.types import Kind, Outcome
+from sim.validation import validate_world
+from sim.world.notation import read
+from sim.world.world import World
+
+MAX_EPISODES: Final = 1_000_000
+"""Most episodes of one planner in one evaluation."""
+MAX_PLANNERS: Final = 6
+"""Most planners that are compared at once."""
+COMPILED_FROM: Final = 1_000
+"""Episodes from which the compiled batch pays: loading it takes a second or two in each process."""
+COMPILED: Final = {"priority": 50_000, "astar": 1_000, "dijkstra": 1_000, "bfs": 5_000}
+"""Episodes of a part, by planner, that the compiled batch runs in well under a second or so."""
+_BATCHED: Final = (Kind.POTHOLE, Kind.BARRIER, Kind.VEHICLE, Kind.PEDESTRIAN)
+LIVE_PART: Final = 20
+"""Episodes of a part where a planner is asked one decision at a time."""
+DETAILED: Final = 200
+"""Episodes, from the first one, that are followed tick by tick for how near things came."""
+STATES: Final = 20_000
+"""States that are searched to prove a road, before it counts as not known."""
+
+
+class EvaluationError(ValueError):
+    """An evaluation that cannot be run; `problems` names each bad field."""
+
+    def __init__(self, problems: tuple[Problem, ...]) -> None:
+        super().__init__("; ".join(f"{problem.field}: {problem}" for problem in problems))
+        self.problems = problems
+
+
+@dataclass(frozen=True, order=True, slots=True)
+class Part:
+    """A stretch of the episodes of an evaluation."""
+
+    first: int
+    count: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evaluation:
+    """Which planners drive how many episodes, and on which roads.
+
+    Episode i is the first one of the configuration with the seed `seed` + i, the same for every planner.
+    With a `world`, every episode starts from that one (`sim.world.notation`), and the seed decides only what
+    is left to chance.
+    """
+
+    planners: tuple[str, ...]
+    episodes: int
+    config: Config = field(default_factory=Config)
+    seed: int = 0
+    world: str | None = None
+
+    def __post_init__(self) -> None:
+        names = tuple(dict.fromkeys(planner_names.canonical(name) for name in self.planners))
+        object.__setattr__(self, "planners", names)
+        if problems := tuple(self._problems()):
+            raise EvaluationError(problems)
+        object.__setattr__(self, "config", replace(self.config, planner=names[0], seed=self.seed))
+
+    def _problems(self) -> Iterator[Problem]:
+        if not 1 <= self.episodes <= MAX_EPISODES:
+            yield Problem("episodes", "must_be_between", low=1, high=MAX_EPISODES)
+        elif not 0 <= self.seed <= MAX_SEED - self.episodes:
+            yield Problem("seed", "must_be_between", low=0, high=MAX_SEED - self.episodes)
+        if not 1 <= len(self.planners) <= MAX_PLANNERS:
+            yield Problem("planners", "must_be_between", low=1, high=MAX_PLANNERS)
+        for name in self.planners:
+            try:
+                self.config.with_parts(planner=name)
+            except ConfigError as error:
+                yield from (Problem("planners", each.code, **each.facts) for each in error.problems)
+
+    def check_road(self) -> None:
+        """Raises `EvaluationError` where the road is known to have no way to the goal."""
+        try:
+            if self.world is None:
+                generate(self.config, 1)
+                return
+            state = self.start(0, self.planners[0])
+            if can_arrive(state, STATES):
+                return
+        except (GenerationError, ImpatientError) as error:
+            if isinstance(error, ImpatientError):
+                return
+        raise EvaluationError((Problem("road", "has_no_way"),))
+
+    @cached_property
+    def road(self) -> World | None:
+        """The world that every episode starts from; None where each draws its own. Raises `ValueError`."""
+        if self.world is None:
+            return None
+        world = read(self.world)
+        if world.outcome is not Outcome.RUNNING or len(world.avs) != 1 or validate_world(world):
+            raise EvaluationError((Problem("road", "has_no_start"),))
+        return world
+
+    @property
+    def alike(self) -> bool:
+        """Whether all episodes of a planner are the same: one road, and nothing on it is left to chance."""
+        return self.world is not None and self.config.certain
+
+    def start(self, index: int, planner: str) -> SimState:
+        """How an episode begins. Raises `GenerationError`."""
+        return SimState.start(replace(self.config, seed=self.seed + index, planner=planner), self.road)
+
+    @property
+    def part_size(self) -> int:
+        """Episodes of a part; the slowest planner decides."""
+        if self.episodes < COMPILED_FROM or not all(self.compiled(name) for name in self.planners):
+            return LIVE_PART
+        return min(COMPILED[name] for name in self.planners)
+
+    def compiled(self, planner: str) -> bool:
+        """Whether the compiled batch drives this planner on these roads."""
+        return self.episodes >= COMPILED_FROM and planner in COMPILED and self._fits_batch
+
+    @cached_property
+    def _fits_batch(self) -> bool:
+        """Whether the compiled batch (`sim.batch`, not loaded here) knows all that is on these roads."""
+        config = self.config
+        return (
+            self.world is None
+            and config.layout is None
+            and config.dynamics == DEFAULT_DYNAMICS
+            and config.behaviour == DEFAULT_BEHAVIOUR
+            and config.sensor == DEFAULT_SENSOR
+            and not any(getattr(config, name) for kind, name in COUNTS.items() if kind not in _BATCHED)
+        )
+
+    def parts(self) -> list[Part]:
+        """The evaluation cut into pieces of work: the first ones, which are followed closely, are small."""
+        edge, size = min(DETAILED, self.episodes), self.part_size
+        firsts = [*range(0, edge, LIVE_PART), *range(edge, self.episodes, size)]
+        ends = [*firsts[1:], self.episodes]
+        return [Part(first, end - first) for first, end in zip(firsts, ends, strict=True)]
+
+    def to_json(self) -> dict[str, Any]:
+        """As JSON values; `from_json` takes them."""
+        return {
+            "planners": list(self.planners),
+            "episodes": self.episodes,
+            "config": asdict(self.config),
+            "seed": self.seed,
+            "world": self.world,
+        }
+
+    @staticmethod
+    def from_json(values: Mapping[str, Any]) -> Evaluation:
+        """From JSON values. Raises `EvaluationError` or `ConfigError`."""
+        known = {each.name for each in fields(Evaluation)}
+        parts = {name: value for name, value in values.items() if name in known}
+        parts["planners"] = tuple(parts["planners"])
+        parts["config"] = saved_config(parts["config"])
+        return Evaluation(**parts)

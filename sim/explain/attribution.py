@@ -1,0 +1,120 @@
+"""Which sensor or which conditions would have avoided a failure, found by running the episode again.
+
+Every alternative starts from the episode's own beginning, with one thing otherwise: perfect sensing, another
+sensor, clear weather, or daylight. What people said meanwhile is said again at the same ticks, without
+settings of what is varied. Movers that react draw as they did, so the runs differ by what is seen alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+from sim import sensor_names
+from sim.actions import Set
+from sim.config import Config
+from sim.perceive import NO_BELIEF
+from sim.session.edits import apply
+from sim.session.errors import EditError
+from sim.session.timeline import Timeline
+from sim.state import SimState
+from sim.transition import step
+from sim.types import Outcome
+
+PLAIN: Final = {"weather": "clear", "time_of_day": "day"}
+"""Conditions under which nothing is hidden."""
+
+
+@dataclass(frozen=True, slots=True)
+class Alternative:
+    """The episode with one setting otherwise."""
+
+    setting: str
+    """`sensor`, `weather` or `time_of_day`"""
+    value: str
+    outcome: Outcome | None
+    """how the episode would have ended; None where something that was said could not be done there"""
+    ticks: int
+    """ticks it would have taken"""
+
+    @property
+    def avoids(self) -> bool:
+        """Whether the vehicle would have arrived."""
+        return self.outcome is Outcome.SUCCESS
+
+
+@dataclass(frozen=True, slots=True)
+class Attribution:
+    """A failure, and what would have avoided it."""
+
+    outcome: Outcome
+    tick: int
+    """the tick of the end"""
+    alternatives: tuple[Alternative, ...]
+
+    @property
+    def avoided_by(self) -> tuple[Alternative, ...]:
+        """The alternatives under which the vehicle would have arrived."""
+        return tuple(each for each in self.alternatives if each.avoids)
+
+    @property
+    def by_sensing(self) -> bool:
+        """Whether perfect sensing would have avoided it; if not, it was no matter of what was seen."""
+        return any(each.value == sensor_names.DEFAULT_SENSOR for each in self.avoided_by)
+
+
+def attribute(timeline: Timeline, tick: int | None = None) -> Attribution | None:
+    """What would have avoided the failure that stands at a tick (by default now); None where none stands.
+
+    Raises `IndexError` for a tick that is not in the past of the timeline.
+    """
+    state = timeline.state if tick is None else timeline.at(tick)
+    world = state.world
+    if world.outcome not in (Outcome.CRASH, Outcome.STUCK) or world.ended is None:
+        return None
+    start = timeline.at(world.episode_start)
+    found = tuple(
+        _rerun(timeline, start, world.ended, setting, value) for setting, value in _changes(state.config)
+    )
+    return Attribution(world.outcome, world.ended, found)
+
+
+def rerun(timeline: Timeline, setting: str, value: str, tick: int | None = None) -> Alternative | None:
+    """The one alternative with this setting; None where no failure stands. Raises `ConfigError`."""
+    state = timeline.state if tick is None else timeline.at(tick)
+    world = state.world
+    if world.outcome not in (Outcome.CRASH, Outcome.STUCK) or world.ended is None:
+        return None
+    return _rerun(timeline, timeline.at(world.episode_start), world.ended, setting, value)
+
+
+def _changes(config: Config) -> Iterator[tuple[str, str]]:
+    """What is varied: every other built-in sensor, and conditions that are not plain."""
+    for sensor in sensor_names.BUILT_IN:
+        if sensor != config.sensor:
+            yield "sensor", sensor
+    for setting, plain in PLAIN.items():
+        if getattr(config, setting) != plain:
+            yield setting, plain
+
+
+def _rerun(timeline: Timeline, start: SimState, end: int, setting: str, value: str) -> Alternative:
+    changed: dict[str, Any] = {setting: value}
+    state = replace(start, config=start.config.with_parts(**changed)).with_each_ego(belief=NO_BELIEF)
+    first, episode = start.world.tick, start.world.episode
+    said = [entry for entry in timeline.entries if first < entry.tick <= end]
+    while state.world.outcome is Outcome.RUNNING:
+        now = state.world.tick
+        for entry in said:
+            varied = isinstance(entry.action, Set) and entry.action.parameter == setting
+            if entry.tick != now or varied:
+                continue
+            try:
+                state = apply(state, entry.action).state
+            except EditError:
+                return Alternative(setting, value, None, now - first)
+        if state.world.episode != episode or state.world.outcome is not Outcome.RUNNING:
+            return Alternative(setting, value, None, now - first)
+        state = step(state).state
+    return Alternative(setting, value, state.world.outcome, state.world.tick - first)

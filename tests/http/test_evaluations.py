@@ -1,0 +1,293 @@
+"""Evaluations over HTTP and by sentences: refused before they begin, true progress, and the reports."""
+
+from __future__ import annotations
+
+import asyncio
+import csv
+import json
+from collections.abc import AsyncIterator, Iterator, Sequence
+from io import StringIO
+from threading import Event
+from typing import Any
+
+import httpx
+import pytest
+
+from service.app import create_app
+from service.grammar import Language
+from service.settings import Settings
+from service.store import MemoryStore, StoreError
+from sim.config import Config
+from sim.evaluate import Evaluation
+from sim.evaluate.executor import InProcess, Piece
+from sim.evaluate.run import evaluate
+from tests.support.fakes import HandClock
+from tests.support.service import Service
+
+ALL = "/api/v1/evaluations"
+
+
+class Held(InProcess):
+    """Runs one piece, and the others once it is let go on."""
+
+    go_on = Event()
+
+    def run(self, work: Any, pieces: Sequence[Any], cancelled: Event) -> Iterator[tuple[Piece, Any]]:
+        for number, each in enumerate(super().run(work, pieces, cancelled)):
+            yield each
+            while number == 0 and not self.go_on.wait(0.02) and not cancelled.is_set():
+                pass
+
+
+async def started(store: MemoryStore, held: bool = False) -> AsyncIterator[Service]:
+    clock = HandClock()
+    app = create_app(
+        Settings(database="memory:"),
+        store=store,
+        language=Language.load("en"),
+        clock=clock,
+        make_executor=Held if held else InProcess,
+    )
+    async with (
+        app.router.lifespan_context(app),
+        httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://service") as client,
+    ):
+        yield Service(app, client, clock, store)
+
+
+@pytest.fixture
+async def running() -> AsyncIterator[Service]:
+    async for service in started(MemoryStore()):
+        yield service
+
+
+@pytest.fixture
+async def held() -> AsyncIterator[Service]:
+    Held.go_on = Event()
+    async for service in started(MemoryStore(), held=True):
+        yield service
+
+
+async def ended(service: Service, path: str) -> dict[str, Any]:
+    await service.app.state.context.jobs.wait(path.rpartition("/")[2])
+    return dict((await service.client.get(path)).json())
+
+
+async def until_done(service: Service, path: str, episodes: int) -> dict[str, Any]:
+    while (found := (await service.client.get(path)).json())["done"] < episodes:  # noqa: ASYNC110
+        await asyncio.sleep(0.01)
+    return dict(found)
+
+
+async def test_the_sentence_starts_what_the_figures_do_and_the_report_says_what_came_of_it(
+    running: Service,
+) -> None:
+    text = "run 30 episodes with A* and compare with the rule planner"
+    said = await running.client.post(ALL, json={"text": text, "seed": 30})
+    typed = await running.client.post(ALL, json={"runs": 30, "planners": ["astar", "priority"], "seed": 30})
+    assert (said.status_code, typed.status_code) == (202, 202)
+    found = [await ended(running, each.headers["location"]) for each in (said, typed)]
+    assert found[0]["result"] == found[1]["result"]
+    spec = Evaluation(planners=("astar", "priority"), episodes=30, seed=30)
+    assert found[0]["result"] == json.loads(json.dumps(evaluate(spec)))
+    assert found[0]["state"] == "done"
+    assert (found[0]["done"], found[0]["progress"]) == (30, 1)
+    assert found[0]["text"][0].startswith("A* arrived in every one of 30 runs")
+    assert "Priority rules of the source arrived in 2" in found[0]["text"][1]
+
+
+async def test_the_report_is_one_page_and_its_links_open_the_episodes(running: Service) -> None:
+    made = await running.client.post(ALL, json={"runs": 30, "planners": ["astar", "priority"], "seed": 30})
+    path = made.headers["location"]
+    found = await ended(running, path)
+    page = await running.client.get(f"{path}/report")
+    assert page.headers["content-type"].startswith("text/html")
+    assert "default-src 'none'" in page.headers["content-security-policy"]
+    assert "A* arrived in every one of 30 runs" in page.text
+    assert "<script" not in page.text
+    assert 'src="http' not in page.text
+    stuck = [each for each in found["result"]["examples"] if each["outcome"] == "stuck"]
+    assert stuck
+    markdown = (await running.client.get(f"{path}/report", params={"format": "markdown"})).text
+    links = [line.partition("](http://service/")[2].partition(")")[0] for line in markdown.splitlines()]
+    links = [link for link in links if link]
+    assert len(links) == len(found["result"]["examples"])
+    for link, example in zip(links, found["result"]["examples"], strict=True):
+        opened = await running.client.post("/api/v1/sessions", json={"link": link})
+        assert opened.status_code == 201, opened.text
+        session = opened.json()
+        assert session["tick"] == example["tick"]
+        assert session["config"]["planner"] == example["planner"]
+        left = example["ticks"] - example["tick"]
+        stepped = await running.client.post(f"{opened.headers['location']}/step", json={"ticks": left})
+        assert stepped.json()["state"]["status"] == example["outcome"]
+
+
+async def test_the_csv_has_every_episode_once(running: Service) -> None:
+    made = await running.client.post(ALL, json={"runs": 45, "planners": ["rules", "bfs"]})
+    path = made.headers["location"]
+    found = await ended(running, path)
+    text = (await running.client.get(f"{path}/report", params={"format": "csv"})).text
+    rows = list(csv.DictReader(StringIO(text)))
+    assert [(row["episode"], row["planner"]) for row in rows if row["planner"] == "bfs"] == [
+        (str(index), "bfs") for index in range(45)
+    ]
+    assert len(rows) == 90
+    for planner, figures in found["result"]["planners"].items():
+        arrived = [row for row in rows if row["planner"] == planner and row["outcome"] == "success"]
+        assert len(arrived) == figures["arrived"]["count"]
+
+
+async def test_progress_is_what_is_done_and_a_cancel_ends_it(held: Service) -> None:
+    path = (await held.client.post(ALL, json={"runs": 60})).headers["location"]
+    found = await until_done(held, path, 20)
+    assert (found["state"], found["done"], found["progress"]) == ("running", 20, pytest.approx(1 / 3))
+    assert found["result"] is None
+    page = await held.client.get(f"{path}/report")
+    assert 'value="20"' in page.text
+    assert (await held.client.get(f"{path}/report", params={"format": "csv"})).status_code == 409
+    assert (await held.client.delete(path)).status_code == 204
+    assert (await held.client.get(path)).json()["state"] == "cancelled"
+    assert (await held.client.get(f"{path}/report")).status_code == 409
+    assert [each["state"] for each in (await held.client.get(ALL)).json()["items"]] == ["cancelled"]
+    assert (await held.client.delete(path)).status_code == 204
+    assert (await held.client.get(path)).status_code == 404
+
+
+async def test_one_that_waits_can_be_cancelled_before_it_begins(held: Service) -> None:
+    paths = [(await held.client.post(ALL, json={"runs": 40})).headers["location"] for _ in range(2)]
+    await until_done(held, paths[0], 20)
+    assert (await held.client.get(paths[1])).json()["state"] == "queued"
+    await held.client.delete(paths[1])
+    Held.go_on.set()
+    assert (await ended(held, paths[0]))["state"] == "done"
+    assert (await held.client.get(paths[1])).json()["state"] == "cancelled"
+
+
+async def test_a_restart_goes_on_where_it_was_and_finds_the_same() -> None:
+    store = MemoryStore()
+    Held.go_on = Event()
+    path = ""
+    async for service in started(store, held=True):
+        path = (await service.client.post(ALL, json={"runs": 60, "seed": 9})).headers["location"]
+        await until_done(service, path, 20)
+    (job,) = await store.jobs(9)
+    assert (job.state, job.done) == ("running", 20)
+    assert set(await store.job_parts(job.id)) == {"0+20"}
+    async for service in started(store):
+        found = await ended(service, path)
+        assert found["done"] == 60
+        expected = evaluate(Evaluation(planners=("rules",), episodes=60, seed=9))
+        assert found["result"] == json.loads(json.dumps(expected))
+        assert set(await store.job_parts(job.id)) == {"0+20", "20+20", "40+20"}
+
+
+@pytest.mark.parametrize(
+    ("body", "field"),
+    [
+        ({"runs": 0}, "runs"),
+        ({"runs": 1_000_000_000}, "runs"),
+        ({"planners": ["best"]}, "planners"),
+        ({"planners": ["dwa"]}, "planners"),
+        ({"planners": []}, "planners"),
+        ({"config": {"solvable": True, "columns": 3, "rows": 6, "potholes": 12, "vehicles": 0}}, "road"),
+        ({"config": {"potholes": 5_000}}, "config.potholes"),
+        ({"road": "this"}, "road"),
+        ({"text": "add five potholes"}, "text"),
+        ({"text": "evaluate A*", "runs": 5}, "runs"),
+        ({"text": "run 100 episodes with A* in the rain"}, "weather"),
+    ],
+)
+async def test_what_cannot_be_run_is_said_before_it_begins(
+    running: Service, body: dict[str, Any], field: str
+) -> None:
+    answer = await running.client.post(ALL, json=body)
+    assert answer.status_code == 422, answer.text
+    assert field in [each["field"] for each in answer.json()["errors"]]
+    assert (await running.client.get(ALL)).json()["items"] == []
+
+
+async def test_a_full_disk_is_said_before_it_begins(
+    running: Service, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def full(*_: object) -> None:
+        raise StoreError("the disk is full")
+
+    monkeypatch.setattr(running.store, "create_job", full)
+    path = await running.session()
+    for answer in (
+        await running.client.post(ALL, json={"runs": 5}),
+        await running.say(path, "run 5 episodes"),
+    ):
+        assert answer.status_code == 503
+        assert answer.json()["type"] == "/problems/not-saved"
+
+
+async def test_too_many_that_wait_are_refused(held: Service) -> None:
+    answers = [await held.client.post(ALL, json={"runs": 40}) for _ in range(21)]
+    assert [each.status_code for each in answers] == [202] * 20 + [429]
+
+
+async def test_a_session_evaluates_its_own_roads_and_says_so(running: Service) -> None:
+    path = await running.session(config={"potholes": 30}, paused=True, seed=None)
+    before = (await running.client.get(path)).json()
+    answer = await running.say(path, "run 20 episodes with A*")
+    assert answer.status_code == 200
+    said = answer.json()
+    (one,) = said["evaluations"]
+    assert said["reply"].startswith("Started 20 runs with A* on roads drawn from seed")
+    assert one["links"]["report"] in said["reply"]
+    found = await ended(running, one["links"]["self"])
+    assert (found["config"]["potholes"], found["seed"], found["same_road"]) == (30, before["seed"], False)
+    after = (await running.client.get(path)).json()
+    assert after["sequence"] == before["sequence"]
+
+
+async def test_a_dry_run_starts_nothing(running: Service) -> None:
+    path = await running.session()
+    answer = await running.say(path, "run 20 episodes", dry_run=True)
+    assert answer.status_code == 200
+    assert answer.json()["evaluations"] == []
+    assert "link" not in answer.json()["reply"]
+    assert (await running.client.get(ALL)).json()["items"] == []
+
+
+async def test_beside_a_change_it_is_stored_and_a_restart_starts_it_not_again() -> None:
+    store = MemoryStore()
+    path = ""
+    async for service in started(store):
+        path = await service.session(paused=True)
+        answer = await service.act(
+            path, {"do": "add", "kind": "pothole", "count": 2}, {"do": "evaluate", "runs": 5, "road": "this"}
+        )
+        assert answer.status_code == 200, answer.text
+        (one,) = answer.json()["evaluations"]
+        found = await ended(service, one["links"]["self"])
+        assert (found["same_road"], found["state"]) == (True, "done")
+        digest = (await service.state(path))["digest"]
+    async for service in started(store):
+        assert (await service.state(path))["digest"] == digest
+        assert len((await service.client.get(ALL)).json()["items"]) == 1
+
+
+async def test_a_road_without_a_way_is_refused_with_the_whole_utterance(running: Service) -> None:
+    path = await running.session(config={"columns": 3, "rows": 6, "potholes": 0, "vehicles": 0}, paused=True)
+    wall = [
+        {"do": "add", "kind": "barrier", "count": 1, "where": {"cell": [column, 3]}} for column in range(3)
+    ]
+    answer = await running.act(path, *wall, {"do": "evaluate", "road": "this"})
+    assert answer.status_code == 422
+    assert "no way to the goal" in answer.json()["detail"]
+    assert (await running.state(path))["tick"] == 0
+    assert (await running.client.get(path)).json()["sequence"] == 0
+
+
+async def test_one_key_starts_one_evaluation(running: Service) -> None:
+    headers = {"Idempotency-Key": "the-same"}
+    answers = [await running.client.post(ALL, json={"runs": 5}, headers=headers) for _ in range(2)]
+    assert answers[0].json()["id"] == answers[1].json()["id"]
+    assert len((await running.client.get(ALL)).json()["items"]) == 1
+
+
+def test_the_default_road_is_that_of_the_configuration() -> None:
+    assert Evaluation(planners=("rules",), episodes=1).config == Config()

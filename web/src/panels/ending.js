@@ -1,0 +1,98 @@
+// @ts-check
+/**
+ * The end of an episode: what happened in a line, and what can be done about it. The clock is stopped for it where a
+ * person watches at a speed one can follow, so that the next road does not begin while they look.
+ */
+
+import { html, live, nothing } from "../../vendor/lit-html.js";
+import { askJson } from "../core/http.js";
+import { prefer, preference } from "../core/preferences.js";
+import { sessionPath } from "../core/protocol.js";
+import { t } from "../core/texts.js";
+import { clock } from "../core/words.js";
+
+/** @import { Page } from "../core/page.js" */
+/** @import { Action } from "../core/protocol.js" */
+/** @import { State } from "../core/state.js" */
+
+/** Faster than this nobody follows single episodes. */
+const FASTEST_WATCHED = 8;
+/** How many ticks before the end are watched again, or driven by hand. */
+const TICKS_BEFORE = 5;
+/** Events that tell of a road and not of an end. */
+const OF_ROADS = new Set(["episode_started", "road_kept", "no_way", "way_open"]);
+/** A preference: whether the next road begins by itself. */
+const GOES_ON = "ends_go_on";
+
+/** Whether the clock is to be stopped: an episode has just ended before somebody's eyes. @param {State} state @param {State} before */
+export function endsNow({ world, connection, past }, before) {
+  if (!world || world.status === "running" || world.paused || past !== null || connection.phase !== "live") return false;
+  if (before.world?.status !== "running" || before.world.episode !== world.episode) return false;
+  const followed = world.pace !== "max" && world.pace <= FASTEST_WATCHED;
+  return followed && !document.hidden && preference(GOES_ON) !== "yes";
+}
+
+/** The line that told of the end. @param {State} state */
+export function endOf({ log }) {
+  return log.findLast(({ tone, type }) => tone === "event" && !OF_ROADS.has(type));
+}
+
+/**
+ * The card's lower part.
+ * @param {State} state  whose episode has ended
+ * @param {Page} page
+ */
+export function endingTemplate(state, page) {
+  const { world } = state;
+  if (!world) return nothing;
+  const end = endOf(state)?.to ?? world.tick;
+  const ticks = world.metrics.last_episode_ticks ?? 0;
+  const from = Math.max(0, end - Math.min(TICKS_BEFORE, ticks));
+  const told = world.status === "success" ? "summary" : "why";
+  return html`${ticks > 0 ? html`<p class="ending-figures">${t("ending.after", { time: clock(ticks * world.stepS), ticks })}</p>` : nothing}
+    <div class="ending-buttons">
+      ${button("next", t("ending.next"), () => void goOn(page, end), "strong")}
+      ${button(told, t(`ending.${told}`), () => page.say(t(`ending.say.${world.status}`)))}
+      ${button("watch", t("ending.watch"), () => void watch(page, from))}
+      ${world.status === "success" ? nothing : button("saved", t("ending.saved"), () => page.say(t("ending.say.saved")))}
+      ${button("drive", t("ending.drive"), () => page.act(driveActions(from, page), t("ending.drive")))}
+    </div>
+    <label class="ending-choice"><input type="checkbox" .checked=${live(preference(GOES_ON) === "yes")} @change=${choose}> ${t("ending.go_on")}</label>`;
+}
+
+/** @param {string} name @param {string} label @param {() => void} press @param {string} [look] */
+function button(name, label, press, look = "") {
+  return html`<button class="button small ${look}" type="button" data-ending=${name} @click=${press}>${label}</button>`;
+}
+
+/** @param {Event} event */
+function choose({ target }) {
+  prefer(GOES_ON, /** @type {HTMLInputElement} */ (target).checked ? "yes" : "no");
+}
+
+/** @param {Page} page @param {number} from */
+async function watch(page, from) {
+  await page.timeTravel.at(from);
+  page.timeTravel.play();
+}
+
+/** Back to where it could still be driven otherwise, with the person at the wheel. @param {number} from @param {Page} page @returns {Action[]} */
+function driveActions(from, page) {
+  const { world } = page.state();
+  /** @type {Action[]} */
+  const wheel = world?.mode === "manual" ? [] : [{ do: "mode", mode: "manual" }];
+  return [{ do: "rewind", to: from }, ...wheel];
+}
+
+/** On to the next road: over what is left of the time for which a result stands. @param {Page} page @param {number} end */
+export async function goOn(page, end) {
+  const { session, world } = page.state();
+  if (!session || !world || world.status === "running") return;
+  const { config } = await askJson(sessionPath(session)).catch(() => ({ config: {} }));
+  const now = page.state().world;
+  if (!now || now.episode !== world.episode) return;
+  const stands = Math.max(1, Math.ceil((config.reset_delay_s ?? 2) / now.stepS));
+  /** @type {Action[]} */
+  const actions = [{ do: "step", ticks: Math.max(1, stands - (now.tick - end)) }];
+  page.act(now.mode === "manual" ? actions : [...actions, { do: "resume" }], t("ending.next"), true);
+}
