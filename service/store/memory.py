@@ -255,6 +255,15 @@ class MemoryStore:
             (tables.PHRASES, [rows.phrase_to_row(each) for each in self._phrases.values()]),
             (tables.IDEMPOTENCY, [rows.response_to_row(each) for each in self._answers.values()]),
             (tables.SECRETS, [{"name": name, "value": value} for name, value in self._secrets.items()]),
+            (tables.JOBS, [rows.job_to_row(each) for each in self._jobs.values()]),
+            (
+                tables.JOB_PARTS,
+                [
+                    {"job_id": of, "key": key, "body": body}
+                    for of, parts in self._parts.items()
+                    for key, body in parts.items()
+                ],
+            ),
         ]
         await to_thread.run_sync(write_file, target, contents)
 

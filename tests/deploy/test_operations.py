@@ -27,7 +27,8 @@ PROMETHEUS = {"job", "instance", "le"}
 def series() -> dict[str, set[str]]:
     """Every series of the service with its labels, as Prometheus reads them."""
     found: dict[str, set[str]] = {"up": set()}
-    for family in text_string_to_metric_families(generate_latest(asked().state.context.metrics.registry).decode()):
+    text = generate_latest(asked().state.context.metrics.registry).decode()
+    for family in text_string_to_metric_families(text):
         for sample in family.samples:
             found.setdefault(sample.name, set()).update(sample.labels)
     return found
