@@ -338,9 +338,9 @@ class Pause:
 Fact = Literal[
     "crash", "arrival", "stuck", "episode", "every", "after", "tick", "row", "lane", "near", "count"
 ]
-"""What a condition is about. Events (they happen in a tick): `crash`, `arrival`, `stuck`, and `episode`, a road that
-begins. Times: `every`, `after` (since the rule was made) and `tick` (of the session). The rest are so or not so:
-`row`, `lane`, `near` (the distance to the nearest thing) and `count` (how many things there are)."""
+"""What a condition is about. Events (they happen in a tick): `crash`, `arrival`, `stuck`, and `episode`, a
+road that begins. Times: `every`, `after` (since the rule was made) and `tick` (of the session). The rest are
+so or not so: `row`, `lane`, `near` (how far the nearest thing is), `count` (how many things there are)."""
 
 _KEYS: dict[str, tuple[frozenset[str], ...]] = {
     **dict.fromkeys(("crash", "arrival", "stuck", "episode"), (frozenset(),)),
@@ -445,7 +445,7 @@ class Trigger:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cancel:
-    """Switch rules off: one by its number or place, all, the last, or those that do such an action to such things."""
+    """Switch rules off: one by its number or place, all, the last, or those that do such an action."""
 
     do: Literal["cancel"] = "cancel"
     which: Annotated[int, Ge(1)] | Literal["all", "last"] | None = None

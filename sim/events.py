@@ -48,8 +48,8 @@ class Event:
     move: Move | None = None
     how: str | None = None
     """CRASHED: `hit`, `swap` or `cross`; HELD_BACK: what blocks the move (`StepVerdict`); PLANNER_FAILED: the
-    fault; STUCK: `limit` or `repetition`; NO_WAY: `late` if too few ticks are left; TRIGGER_ENDED: `done`, `limit`
-    (fired too often) or `failed` (could not be done too often)"""
+    fault; STUCK: `limit` or `repetition`; NO_WAY: `late` if too few ticks are left; TRIGGER_ENDED: `done`,
+    `limit` (fired too often) or `failed` (could not be done too often)"""
     ego: str = "av-1"
     """the ego it happened to; the first ego if it concerns all of them"""
     rule: int | None = None

@@ -1,7 +1,7 @@
 """Rules that stand in a session ("every 10 ticks add a car"), as part of its state.
 
-What a rule is waiting for and does is `sim.actions.Trigger`; here is how it stands. That it is looked at after every
-tick is the work of `sim.session.triggers`.
+What a rule is waiting for and does is `sim.actions.Trigger`; here is how it stands. That it is looked at
+after every tick is the work of `sim.session.triggers`.
 """
 
 from __future__ import annotations

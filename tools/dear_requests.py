@@ -1,11 +1,11 @@
 """What dear requests do to others: a table of tick lateness, `/healthz`, memory and outcomes.
 
-`python -m tools.dear_requests` prints it. A service runs in a process of its own with sessions that behave, at
-two ticks a second. Ten clients at once send each request of `tools.dear_cases` for some seconds, and hang up;
-also sockets that never read, and live sessions whose ticks are dear. Before and after stands the same without
-any dear request, since the machine has a say in it. Lateness is read from `/metrics`, so that its 99th
-percentile is the bound of a bucket. What the machine has no say in is how much processor time the event loop's
-thread took between two turns.
+`python -m tools.dear_requests` prints it. A service runs in a process of its own with sessions that behave,
+at two ticks a second. Ten clients at once send each request of `tools.dear_cases` for some seconds, and hang
+up; also sockets that never read, and live sessions whose ticks are dear. Before and after stands the same
+without any dear request, since the machine has a say in it. Lateness is read from `/metrics`, so that its
+99th percentile is the bound of a bucket. What the machine has no say in is how much processor time the event
+loop's thread took between two turns.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ import argparse
 import asyncio
 import http.client
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -202,8 +201,8 @@ async def measured(url: str, pid: int, others: int, seconds: float, only: str) -
     table = Table(url, pid)
     await table.prepare(others)
     print(
-        "| request | loop held, CPU ms | ticks | lateness p99, ms | later than 20 ms, % | healthz p99, ms | max "
-        "| MB | outcomes |"
+        "| request | loop held, CPU ms | ticks | lateness p99, ms | later than 20 ms, % "
+        "| healthz p99, ms | max | MB | outcomes |"
     )
     print("| --- " * 9 + "|", flush=True)
 
@@ -230,8 +229,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "tools.watched_service", "serve", "--port", "0"]
         command += ["--database", f"sqlite:///{folder}/roadtalk.db"]
-        environment = {**os.environ, "ROADTALK_MAX_RECORDING_BYTES": "4000000"}
-        service = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, env=environment)
+        service = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
         try:
             assert service.stdout is not None
             url = service.stdout.readline().rsplit(" ", 1)[-1].strip()

@@ -32,7 +32,7 @@ from service.warm_up import warm_up
 STOP_S = 1
 """How long a stopping service waits for requests under way."""
 
-SWITCH_S = 0.001
+SWITCH_S = 0.0005
 """How long a thread that computes keeps the interpreter from the event loop."""
 
 

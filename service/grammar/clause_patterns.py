@@ -1,8 +1,8 @@
 """Patterns of whole clauses, matched where they stand: "[when] (it|you) (crash|crashes)".
 
-The notation is that of `patterns`, but nothing is expanded: a clause has so many forms that the list of them would be
-long. `{n}` is a whole number, `{x}` any number, `{nth}` an ordinal, `{metres}` and `{seconds}` numbers with a unit,
-`{kind}` and `{kinds}` the words for one thing of a kind and for many.
+The notation is that of `patterns`, but nothing is expanded: a clause has so many forms that the list of them
+would be long. `{n}` is a whole number, `{x}` any number, `{nth}` an ordinal, `{metres}` and `{seconds}`
+numbers with a unit, `{kind}` and `{kinds}` the words for one thing of a kind and for many.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class Patterns:
         units: Mapping[str, Mapping[str, float]],
         kinds: Mapping[str, Mapping[str, str]],
     ) -> None:
-        """`units`: by slot, words and what each is in the slot's own unit; `kinds`: by slot and kind, words."""
+        """`units`: by slot, words and what each is in the slot's unit; `kinds`: by slot and kind, words."""
         self.words: set[str] = set()
         self._macros = {name: self.read(text) for name, text in macros.items()}
         self._units = {

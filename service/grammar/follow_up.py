@@ -22,7 +22,7 @@ from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Under
 from service.grammar.repairs import about_the_same
 from service.grammar.said_before import can_be_corrected, done_anew, shape
 from service.grammar.sentences import Unsayable
-from service.grammar.setting_talk import read_of_setting, setting_of
+from service.grammar.setting_talk import grown_too, read_of_setting, setting_of
 from service.grammar.short_talk import pick_going_on, read_short, without_marks
 from service.grammar.thing_talk import kinds_of, read_asked, read_of_things
 from service.grammar.tokens import normalise, tokenise
@@ -42,6 +42,8 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     "and left?" asks the same of the left.
     """
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
+    if (grown := grown_too(language, text, topic, parsed)) is not None:
+        return grown
     if alone and (listed := choose_listed(language, text, topic)) is not None:
         return listed
     if alone or _asks(parsed):

@@ -15,7 +15,7 @@ from service.grammar.patterns import PatternError
 
 WHEN, ONCE, UNTIL, TIMES = "when", "once", "until", "times"
 PARTS = (WHEN, ONCE, UNTIL, TIMES)
-"""Parts of a rule beside what it does: what it waits for (`once`: the next time alone), when it ends, how often."""
+"""Parts of a rule beside what it does: what it waits for (`once`: only the next time), its end, how often."""
 KEEP = "keep"
 """What begins a request that is repeated: "keep adding"."""
 COMMAND = "command"

@@ -1,8 +1,8 @@
 """Reads rules: "every 10 ticks add a car", "pause when something is closer than 10 m", "forget all rules".
 
-A rule is a request with a condition at its beginning or end, both of which are read whole: what stands beside the
-condition is a sentence that means actions a rule can do. It is tried where a sentence is refused otherwise, so that no
-sentence loses a meaning. Where a sentence may be several rules, which of them is meant is asked.
+A rule is a request with a condition at its beginning or end, both of which are read whole: what stands
+beside the condition is a sentence that means actions a rule can do. It is tried where a sentence is refused
+otherwise, so that no sentence loses a meaning. Where a sentence may be several rules, it is asked about.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _RULE_ACTIONS = get_args(RuleAction)
 
 @dataclass(frozen=True, slots=True)
 class _Rest:
-    """What is left of a sentence: the tokens `[start, end)` of a request, and the parts that were beside it."""
+    """What is left of a sentence: the tokens `[start, end)` of a request, and the parts beside it."""
 
     start: int
     end: int
@@ -83,12 +83,12 @@ class RuleReader:
         )
         reading = _Reading(self._language, self._words, plain, said, topic, work)
         try:
-            found = reading.all()
+            readings = reading.all()
         except BudgetExceededError:
             return None
-        if len(found) == 1:
-            return Understood(text, found[0], tuple(corrections))
-        return self._which(text, found)
+        if len(readings) == 1:
+            return Understood(text, readings[0], tuple(corrections))
+        return self._which(text, readings)
 
     def _meant(self, word: str) -> str | None:
         if not word.isalpha() or self._language.data.knows(word) or word in self._words.patterns.words:

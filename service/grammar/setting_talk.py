@@ -24,6 +24,9 @@ from sim.sensor_names import SensorName
 MAX_WORDS = 10
 """Longer sentences name what they are about."""
 
+_SIZES = ("columns", "rows")
+"""Settings that are amounts of something on the road, which is new where they are set."""
+
 _CHOSEN = {"planner": get_args(PlannerName), "sensor": get_args(SensorName)}
 """Settings whose values have names that may be asked about."""
 
@@ -74,6 +77,24 @@ def read_of_setting(language: Language, text: str, topic: Topic, parsed: Parse) 
     except (BudgetExceededError, Unsayable):
         return None
     return None
+
+
+def grown_too(language: Language, text: str, topic: Topic, parsed: Parse) -> Understood | None:
+    """The road changed further by an amount: "and five rows" after "add two lanes" adds rows.
+
+    Alone it says how many there are, which would make a new road.
+    """
+    if not isinstance(parsed, Understood) or len(parsed.actions) != 1 or len(topic.actions) != 1:
+        return None
+    before, after = topic.actions[0], parsed.actions[0]
+    if not isinstance(before, Adjust) or before.by is None or before.parameter not in _SIZES:
+        return None
+    if not isinstance(after, Set) or after.parameter not in _SIZES or isinstance(after.value, str):
+        return None
+    if not language.data.answers.beginning(tokenise(normalise(text), language.data.contractions), FOLLOWS):
+        return None
+    by = after.value if before.by > 0 else -after.value
+    return Understood(text, (Adjust(parameter=after.parameter, by=by),))
 
 
 def _about_settings(actions: Sequence[Action], *, explained: bool) -> bool:

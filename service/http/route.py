@@ -17,6 +17,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 from fastapi import APIRouter, Request, Response
 from fastapi.params import Path, Query
 from fastapi.routing import APIRoute
+from pydantic import BaseModel, ValidationError
 from starlette.requests import ClientDisconnect
 from starlette.types import Receive, Scope, Send
 
@@ -65,11 +66,33 @@ class GuardedRoute(APIRoute):
         return settings.max_recording_bytes if self.policy.recording else settings.max_body_bytes
 
 
+LARGE_BODY = 16_384
+"""A body of more bytes, such as a recording, is read and validated in a thread."""
+
+
 class _StrictRequest(Request):
     """Reads JSON without duplicate keys (`service.http.json`)."""
 
     async def json(self) -> Any:
-        return json.loads(await self.body())
+        body = await self.body()
+        if len(body) <= LARGE_BODY:
+            return json.loads(body)
+        route = self.scope.get("route")
+        work = context_in(self.scope).manager.work
+        return await work.in_thread(_validated, body, getattr(route, "body_type", None))
+
+
+def _validated(body: bytes, model: Any) -> Any:
+    """The model of a body, which FastAPI takes as it is; its values where it is not valid."""
+    values = json.loads(body)
+    try:
+        return (
+            model.model_validate(values)
+            if isinstance(model, type) and issubclass(model, BaseModel)
+            else values
+        )
+    except ValidationError:
+        return values  # FastAPI says what is wrong
 
 
 class ApiRoute(GuardedRoute):

@@ -7,7 +7,7 @@ from typing import ParamSpec, TypeVar
 
 from service.http.deps import Context
 from service.sessions.scheduler.offload import QUESTION_S, run_in_thread, uses_external_planner
-from service.work.units import config_tick_units, state_tick_units
+from service.work.units import TOLD, config_tick_units, state_tick_units
 from sim.session.timeline import Timeline
 
 Given = ParamSpec("Given")
@@ -22,11 +22,11 @@ async def run_on_timeline(
     *args: Given.args,
     **named: Given.kwargs,
 ) -> Result:
-    """The result of a function that decides about so many ticks of a timeline, wherever it runs.
+    """The result of a function that decides about so many ticks and tells them, wherever it runs.
 
     What may ask a planner of another package runs in the threads for that.
     """
     if uses_external_planner(timeline):
         return await run_in_thread(True, QUESTION_S, lambda: function(*args, **named))
-    units = ticks * max(state_tick_units(timeline.state), config_tick_units(timeline.config))
+    units = ticks * (TOLD + max(state_tick_units(timeline.state), config_tick_units(timeline.config)))
     return await here.manager.work.run(units, function, *args, **named)

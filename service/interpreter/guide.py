@@ -5,12 +5,12 @@ It is made from the language's own data, so it lists nothing that the grammar do
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import cast
 
-from anyio import from_thread, to_thread
+from anyio import CapacityLimiter, to_thread
 
 from service.actions import Action, Ask
 from service.actions.table import sets_playback_speed
@@ -22,12 +22,15 @@ from service.grammar.sentences import Unsayable
 from service.grammar.topic import Topic
 from service.resources import DEFAULT_LANGUAGE
 from service.sessions.availability import refusal_of
+from service.sessions.dry_run import is_possible
 from service.sessions.scheduler.playback_speed import (
     PlaybackSpeed,
     PlaybackSpeedError,
     change_playback_speed,
 )
 from service.sessions.session import Session
+from service.sessions.transaction import Transaction
+from service.sessions.work_estimate import is_large
 from sim.actions import Adjust, PlaceableKind, Remove, Set, Where
 from sim.config import Config
 from sim.session.errors import EditError
@@ -66,6 +69,7 @@ class Guide:
         """`language`: its code; reasons for unavailable intents are in it."""
         self._grammar = grammar
         self._language = language
+        self._completing = CapacityLimiter(1)
 
     @cached_property
     def intents(self) -> tuple[Intent, ...]:
@@ -88,18 +92,16 @@ class Guide:
     async def completions(
         self, prefix: str, session: Session | None, topic: Topic, taught: list[str]
     ) -> list[str]:
-        """`completions_here`, with long prefixes completed in a thread."""
-        if len(prefix) <= MAX_INLINE_CHARS:
+        """`completions_here`; in a thread for long prefixes, and on large roads, where trying takes long."""
+        if len(prefix) <= MAX_INLINE_CHARS and (session is None or not is_large(session.run)):
             return self.completions_here(prefix, session, topic, taught)
         extra = [*taught, *self._by_id(topic)]
-
-        def possible(actions: tuple[Action, ...]) -> bool:
-            return from_thread.run_sync(_possible, session, actions)
+        possible = partial(_possible, None) if session is None else _trial(session)
 
         def complete() -> list[str]:
             return self._completer.complete(prefix, topic, extra=extra, possible=possible)
 
-        return await to_thread.run_sync(complete)
+        return await to_thread.run_sync(complete, limiter=self._completing)
 
     def _by_id(self, topic: Topic) -> Iterator[str]:
         """Sentences about the things that the conversation is about."""
@@ -129,6 +131,18 @@ def _possible(session: Session | None, actions: tuple[Action, ...]) -> bool:
     if session is not None:
         return session.is_possible(actions) and _settable(actions, session.run.config, session.playback_speed)
     return all(refusal_of(action) is None for action in actions)
+
+
+def _trial(session: Session) -> Callable[[tuple[Action, ...]], bool]:
+    """`_possible` in a session as it is now, for another thread."""
+    begun, sequence, config = session.begin_transaction(), session.sequence, session.run.config
+
+    def possible(actions: tuple[Action, ...]) -> bool:
+        speed = begun.playback_speed
+        fresh = Transaction(begun.timeline, begun.paused, begun.undo_stack, speed, begun.language, begun.talk)
+        return is_possible(fresh, sequence, actions) and _settable(actions, config, speed)
+
+    return possible
 
 
 def _name(action: Action) -> str:

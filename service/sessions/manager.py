@@ -369,7 +369,7 @@ class SessionManager:
         """See `restore`; a long log without a snapshot is replayed in a process, whatever it costs."""
         config = saved_config(record.config)
         long = snapshot is None and record.branch is None
-        units = log_units(config, entries, record.tick) if long else 0
+        units = await self.work.in_thread(log_units, config, entries, record.tick) if long else 0
         back = partial(restore, record, entries, snapshot, self._services)
         if uses_installed_planner(config, entries):
             return await run_in_thread(True, REPLAY_S, back)

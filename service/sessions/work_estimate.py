@@ -9,11 +9,17 @@ from service.actions import QUESTIONS, Action, Goal
 from service.sessions.facts import Asked, Fact, question_timelines
 from service.sessions.transaction import Transaction, step_ticks
 from service.store import EntryRecord
-from service.work.units import replay_units, search_units, state_tick_units, tick_units
+from service.work.units import move_units, replay_units, search_units, state_tick_units, tick_units
 from sim.config import Config
 from sim.plan import traits_of
 from sim.planner_names import ALIASES, BUILT_IN
 from sim.state import SimState
+
+LARGE_CELLS: Final = 1_000
+"""On roads of more cells, making a change takes as long as some ticks."""
+
+ACTION_MOVES: Final = 4
+"""Ticks without decisions that one change of a large road takes."""
 
 GOAL_SEARCHES: Final = 50
 """Searches that reaching a goal may take."""
@@ -33,6 +39,8 @@ def transaction_units(transaction: Transaction, actions: Sequence[Action]) -> in
     state = transaction.timeline.state
     steps = step_ticks(actions)
     units = steps * state_tick_units(state) if steps else 0
+    if is_large(state):
+        units += len(actions) * ACTION_MOVES * move_units(state)
     again = transaction.estimate_ticks(actions) - steps
     if again > 0:
         units += replay_units(state, again)
@@ -40,6 +48,11 @@ def transaction_units(transaction: Transaction, actions: Sequence[Action]) -> in
     if goals:
         units += goals * GOAL_SEARCHES * search_units(state)
     return units
+
+
+def is_large(state: SimState) -> bool:
+    """Whether a change of the road takes long enough to be counted."""
+    return state.world.road.columns * state.world.road.rows > LARGE_CELLS
 
 
 def answer_units(run: SimState, facts: tuple[Fact, ...]) -> int:

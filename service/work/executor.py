@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
-from typing import Final, Literal, ParamSpec, TypeVar
+from typing import Any, Final, Literal, ParamSpec, TypeVar
 
 import structlog
 from anyio import CapacityLimiter, to_thread
@@ -27,7 +27,7 @@ from service.work.queue import WorkQueue
 from service.work.units import INLINE, THREAD
 from service.work.worker import Worker, WorkerLostError
 
-THREADS: Final = 2
+THREADS: Final = 1
 """Threads that compute at once: each delays the event loop a little."""
 
 MOST_PROCESSES: Final = 8
@@ -84,7 +84,10 @@ class WorkExecutor:
         self, function: Callable[Given, Result], *args: Given.args, **named: Given.kwargs
     ) -> Result:
         """The result of a function, in one of the few threads that compute."""
-        return await to_thread.run_sync(partial(function, *args, **named), limiter=self._threads)
+        box: list[Any] = [partial(function, *args, **named)]
+        await to_thread.run_sync(_call_in, box, limiter=self._threads)
+        result: Result = box.pop()
+        return result
 
     async def in_process(
         self, units: int, function: Callable[Given, Result], *args: Given.args, **named: Given.kwargs
@@ -152,6 +155,11 @@ class WorkExecutor:
             f"The process that did this ran out of memory or was ended; at most {most} MB are used "
             "(ROADTALK_MAX_WORK_MEMORY_MB). Nothing was done."
         )
+
+
+def _call_in(box: list[Any]) -> None:
+    """Replace a function in a box by its result; an idle thread keeps the box, and nothing in it."""
+    box.append(box.pop()())
 
 
 async def _owned(task: asyncio.Task[bytes]) -> bytes:

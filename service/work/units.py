@@ -22,8 +22,14 @@ LEAST_CELLS: Final = 200
 CELLS_A_UNIT: Final = 16
 """Cells of road that add one unit to a tick without a search."""
 
-INLINE: Final = 20_000
-"""Work up to this is done on the event loop: about 5 ms."""
+INLINE: Final = 5_000
+"""Work of a request up to this is done on the event loop: one or two milliseconds."""
+
+LIVE_INLINE: Final = 20_000
+"""A tick of a live session up to this is decided on the event loop."""
+
+TOLD: Final = 1_000
+"""Units of putting one decision, or one state, into words and JSON."""
 
 THREAD: Final = 400_000
 """Work up to this is done in a thread, where it delays the event loop by the switch interval; more in a

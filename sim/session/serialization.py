@@ -115,8 +115,14 @@ class Packer:
 
     def _rules(self, triggers: Triggers) -> list[Any]:
         standing = [
-            [self._triggers.number(rule.trigger, lambda each: each), rule.number, rule.since, rule.held]
-            + [rule.fired, rule.failed]
+            [
+                self._triggers.number(rule.trigger, lambda each: each),
+                rule.number,
+                rule.since,
+                rule.held,
+                rule.fired,
+                rule.failed,
+            ]
             for rule in triggers.standing
         ]
         return [triggers.made, standing]

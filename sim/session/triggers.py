@@ -1,8 +1,9 @@
 """Rules done: at the end of each tick in which their conditions come to hold.
 
-All of it is a pure function of the states before and after a tick, so that a replay, an undo or a rewind leads to the
-same firings; none of them is an entry of the log. Every condition is looked at before any rule is done: what one rule
-does is seen by the others a tick later, so a tick does each rule at most once. A rule is done wholly or not at all.
+All of it is a pure function of the states before and after a tick, so that a replay, an undo or a rewind
+leads to the same firings; none of them is an entry of the log. Every condition is looked at before any rule
+is done: what one rule does is seen by the others a tick later, so a tick does each rule at most once. A rule
+is done wholly or not at all.
 """
 
 from __future__ import annotations
@@ -92,7 +93,7 @@ def _do(state: SimState, rule: StandingTrigger) -> tuple[SimState, StandingTrigg
                 done.append(action)
                 continue
             applied = apply(made, action)
-            _refuse_crowds(made, applied)
+            _refuse_crowds(applied)
             made = applied.state
             done.append(applied)
     except EditError as error:
@@ -102,7 +103,7 @@ def _do(state: SimState, rule: StandingTrigger) -> tuple[SimState, StandingTrigg
     return made, replace(rule, fired=rule.fired + 1, failed=0), event
 
 
-def _refuse_crowds(before: SimState, applied: Applied) -> None:
+def _refuse_crowds(applied: Applied) -> None:
     """Refuses to put more things on a road than leave half of it free."""
     world = applied.state.world
     between = world.road.between

@@ -12,12 +12,16 @@ from tests.support.service_process import PATIENCE_S, ServiceProcess
 
 CASES = [
     json.loads(line)
-    for line in (Path(__file__).parents[1] / "data" / "language" / "rules.jsonl").read_text("utf-8").splitlines()
+    for line in (Path(__file__).parents[1] / "data" / "language" / "rules.jsonl")
+    .read_text("utf-8")
+    .splitlines()
 ]
 
 
 def post(url: str, path: str, content: dict[str, Any]) -> dict[str, Any]:
-    values: dict[str, Any] = httpx.post(f"{url}/api/v1/sessions/{path}", json=content, timeout=PATIENCE_S).json()
+    values: dict[str, Any] = httpx.post(
+        f"{url}/api/v1/sessions/{path}", json=content, timeout=PATIENCE_S
+    ).json()
     return values
 
 

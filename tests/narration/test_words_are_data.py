@@ -12,6 +12,7 @@ SERVICE = Path(__file__).parents[2] / "service"
 FOLDERS = ("sessions", "narration", "interpreter", "grammar", "window", "llm")
 ELSEWHERE = {
     "grammar/build.py": "errors of the language's data, for its author",
+    "grammar/clause_patterns.py": "errors of the language's data, for its author",
     "grammar/compiled.py": "errors of the language's data, for its author",
     "grammar/data.py": "errors of the language's data, for its author",
     "grammar/frame_use.py": "errors of the language's data, for its author",
@@ -19,6 +20,7 @@ ELSEWHERE = {
     "grammar/lexicon.py": "errors of the language's data, for its author",
     "grammar/linter.py": "errors of the language's data, for its author",
     "grammar/patterns.py": "errors of the language's data, for its author",
+    "grammar/rule_words.py": "errors of the language's data, for its author",
     "grammar/sentences.py": "errors of the language's data, for its author",
     "grammar/sentences_of_things.py": "errors of the language's data, for its author",
     "grammar/tokens.py": "a pattern",

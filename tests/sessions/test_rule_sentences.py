@@ -1,4 +1,4 @@
-"""Sixty rules in words, written from the contract alone: what each means, and that a replay of its log is the same."""
+"""Sixty rules in words, written from the contract alone: what each means, and that a replay is the same."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ from tests.support.snapshots import back
 
 CASES: list[dict[str, Any]] = [
     json.loads(line)
-    for line in (Path(__file__).parents[1] / "data" / "language" / "rules.jsonl").read_text("utf-8").splitlines()
+    for line in (Path(__file__).parents[1] / "data" / "language" / "rules.jsonl")
+    .read_text("utf-8")
+    .splitlines()
 ]
 
 

@@ -69,7 +69,8 @@ async def compared(store: MemoryStore, session: str, **given: int) -> None:
     long = await back(store, session, short=False, **given)
     assert all_of(short) == all_of(long)
     for actions in AFTERWARDS:
-        assert await said(short, actions) == await said(long, actions)
+        one, other = await said(short, actions), await said(long, actions)
+        assert one == other, (actions, one, other)
         assert all_of(short) == all_of(long)
     ways = [
         fork_point(each.id, each.partial_changes, each.timeline, each.timeline.tick // 2)

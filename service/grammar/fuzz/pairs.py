@@ -2,7 +2,7 @@
 
 A verdict is found from the actions alone, without a look at how they were read. What the grammar declares is
 told apart from what is lost: an amount without a verb leans on the clause before, a scenario takes in its
-parts, and a condition or a taught phrase goes on to the end.
+parts, and a condition, a taught phrase or a rule goes on to the end.
 """
 
 from __future__ import annotations
@@ -145,9 +145,9 @@ def _takes_in(wanted: Actions, got: Actions) -> bool:
 
 
 def _goes_on(one: Saying, other: Saying, got: Actions) -> bool:
-    """Whether the second part is in the condition, or the taught phrase, that the first ends with."""
+    """Whether the second part is in the condition, taught phrase or rule that the first ends with."""
     *before, last = one.actions
-    inner = next((key for key in ("change", "meaning") if key in last), None)
+    inner = next((key for key in ("change", "meaning", "then") if key in last), None)
     at = len(before)
     if "move" in last and len(got) == at + 1 and "change" in got[at]:
         return (

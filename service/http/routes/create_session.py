@@ -130,7 +130,7 @@ async def _create(
                 FieldProblem(f"config.{each.field}", refusals(language).problem(each))
                 for each in error.problems
             ) from error
-    config, recorded = _read_recording(here, body, recording, language)
+    config, recorded = await here.manager.work.in_thread(_read_recording, here, body, recording, language)
     return await here.manager.create(
         body.name or recording.name,
         config,

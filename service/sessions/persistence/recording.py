@@ -55,8 +55,9 @@ async def replay_recording(session: Session, recording: Recording, services: Ses
     """
     most = None if recording.own else services.settings.max_recording_ticks
     record, entries = session.record, recording.entries
-    units = log_units(session.timeline.config, entries, recording.tick)
-    services.work.check(units)
+    units = await services.work.in_thread(log_units, session.timeline.config, entries, recording.tick)
+    if not recording.own:
+        services.work.check(units)
     try:
         work = partial(replay, session, session.narrator, entries, recording.tick, most=most)
         if uses_installed_planner(session.timeline.config, entries):

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from service.problems import Stopped
 from service.sessions.worker_calls import decide
 from service.work.live_lane import LiveLane, NoDecisionError
-from service.work.units import INLINE, state_tick_units
+from service.work.units import LIVE_INLINE, state_tick_units
 from sim.plan import Decision
 from sim.plan.safe_planning import is_foreign
 from sim.state import SimState
@@ -80,6 +80,6 @@ def is_dear_to_decide(run: SimState) -> bool:
 
     Planners of other packages are asked in processes of their own.
     """
-    if state_tick_units(run) <= INLINE:
+    if state_tick_units(run) <= LIVE_INLINE:
         return False
     return not any(is_foreign(run.config_of(id).planner) for id in run.egos)

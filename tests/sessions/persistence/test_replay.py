@@ -104,7 +104,7 @@ async def test_many_undos_at_once_are_done_beside_the_loop(monkeypatch: pytest.M
     monkeypatch.setattr(WorkExecutor, "in_thread", noted)
     session = await Service().session(paused=True)
     for _ in range(5):
-        await do(session, {"do": "step", "ticks": 60}, ADD)
+        await do(session, {"do": "step", "ticks": 15}, ADD)
     threads.clear()
     await do(session, UNDO)
     assert threads == []

@@ -191,7 +191,7 @@ export interface BriefDecision {
   blocked: BlockedMove[];
 }
 
-/** Switch rules off: one by its number or place, all, the last, or those that do such an action to such things. */
+/** Switch rules off: one by its number or place, all, the last, or those that do such an action. */
 export interface Cancel {
   do: "cancel";
   which?: number | "all" | "last" | null;
