@@ -10,7 +10,7 @@ import httpx
 from service.client.errors import UnexpectedAnswer
 
 DATABASE_HEADER = "Roadtalk-Database"
-MEDIA_TYPE = "application/vnd.sqlite3"
+MEDIA_TYPE = "application/octet-stream"
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ from starlette.types import Scope
 
 from service.http.headers import first_header
 from service.http.middleware.cross_site import READING
+from service.interpreter.owners import ask_as
 from service.problems import CrossSite
 from service.security.cross_site import is_cross_site, same_site
 from service.security.guard import Guard, client_of
@@ -20,10 +21,12 @@ _GETTING = frozenset(("GET", "HEAD"))
 
 
 def check_access(scope: Scope, guard: Guard) -> None:
-    """Raises `CrossSite`, `Unauthorized` or `TooManyWrongKeys`."""
+    """Lets a client in, as the owner that it is. Raises `CrossSite`, `Unauthorized` or `TooManyWrongKeys`."""
     if scope["method"] in _GETTING:
         _check_cross_site_get(scope)
-    guard.admit(client_of(scope), first_header(scope, b"authorization"))
+    client = client_of(scope)
+    guard.admit(client, first_header(scope, b"authorization"))
+    ask_as(client)
 
 
 def count_change(scope: Scope, guard: Guard) -> None:

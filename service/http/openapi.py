@@ -52,6 +52,7 @@ def _correct(document: dict[str, Any], routes: Sequence[APIRoute], languages: Se
         _document_route(route, method, operation)
     openapi_links.document(document["paths"])
     _name_languages(document, languages)
+    _list_constants(document["components"]["schemas"])
     document["components"]["securitySchemes"] = {"key": {"type": "http", "scheme": "bearer"}}
     for name in _FRAMEWORK_ERRORS:
         document["components"]["schemas"].pop(name, None)
@@ -91,8 +92,24 @@ def _name_languages(document: dict[str, Any], languages: Sequence[str]) -> None:
             named = (each for each in operation.get("parameters", []) if each["name"] == "language")
             chosen += [parameter["schema"] for parameter in named]
     for schema in chosen:
-        if schema and schema.pop("maxLength", None):  # in answers it has none
-            schema["enum"] = list(languages)
+        for each in (
+            [schema, *schema.get("anyOf", ())] if schema else ()
+        ):  # one that may be null is one of two
+            if each.pop("maxLength", None):  # in answers it has none
+                each["enum"] = list(languages)
+
+
+def _list_constants(schema: Any) -> None:
+    """Writes a text that is one of several kinds of value as a list of one.
+
+    It means the same, but generators of clients read a constant there as the only value.
+    """
+    parts = schema.values() if isinstance(schema, dict) else schema if isinstance(schema, list) else ()
+    for each in parts:
+        _list_constants(each)
+    for each in schema.get("anyOf", ()) if isinstance(schema, dict) else ():
+        if isinstance(each, dict) and isinstance(each.get("const"), str):
+            each["enum"] = [each.pop("const")]
 
 
 def _add_problems(operation: dict[str, Any], *slugs: str) -> None:

@@ -245,8 +245,8 @@ class Store(Protocol):
     ) -> bool:
         """Delete a phrase; returns whether it existed."""
 
-    async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
-        """All phrases of an owner, by language and key."""
+    async def phrases(self, owner: str | None = None) -> Sequence[PhraseRecord]:
+        """All phrases of an owner, or of all owners, by owner, language and key."""
 
     async def secret(self, name: str) -> bytes:
         """A secret of this store, the same whenever it is asked for; made when it is first."""

@@ -221,9 +221,9 @@ class MemoryStore:
         await self._add_response(answer)
         return self._phrases.pop((owner, language, key), None) is not None
 
-    async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
+    async def phrases(self, owner: str | None = None) -> Sequence[PhraseRecord]:
         """See `Store.phrases`."""
-        return [each for key, each in sorted(self._phrases.items()) if each.owner == owner]
+        return [each for _, each in sorted(self._phrases.items()) if owner in (None, each.owner)]
 
     async def secret(self, name: str) -> bytes:
         """See `Store.secret`."""
@@ -255,6 +255,15 @@ class MemoryStore:
             (tables.PHRASES, [rows.phrase_to_row(each) for each in self._phrases.values()]),
             (tables.IDEMPOTENCY, [rows.response_to_row(each) for each in self._answers.values()]),
             (tables.SECRETS, [{"name": name, "value": value} for name, value in self._secrets.items()]),
+            (tables.JOBS, [rows.job_to_row(each) for each in self._jobs.values()]),
+            (
+                tables.JOB_PARTS,
+                [
+                    {"job_id": of, "key": key, "body": body}
+                    for of, parts in self._parts.items()
+                    for key, body in parts.items()
+                ],
+            ),
         ]
         await to_thread.run_sync(write_file, target, contents)
 

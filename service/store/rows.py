@@ -12,6 +12,7 @@ from service.store.base import (
     BookmarkRecord,
     Branch,
     EntryRecord,
+    JobRecord,
     PhraseRecord,
     SessionRecord,
     SnapshotRecord,
@@ -154,4 +155,20 @@ def phrase_to_row(record: PhraseRecord) -> dict[str, Any]:
         "key": record.key,
         "phrase": record.phrase,
         "meaning": [dict(action) for action in record.meaning],
+    }
+
+
+def job_to_row(record: JobRecord) -> dict[str, Any]:
+    """A job as a row, with its number."""
+    return {
+        "number": record.number,
+        "id": record.id,
+        "kind": record.kind,
+        "state": record.state,
+        "created_at": record.created_at.astimezone(UTC).replace(tzinfo=None),
+        "spec": dict(record.spec),
+        "done": record.done,
+        "total": record.total,
+        "result": None if record.result is None else dict(record.result),
+        "error": record.error,
     }

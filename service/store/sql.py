@@ -321,9 +321,11 @@ class SqlStore(SqlJobs):
                 await connection.execute(insert(IDEMPOTENCY), response_to_row(answer))
         return result.rowcount > 0
 
-    async def phrases(self, owner: str) -> Sequence[PhraseRecord]:
+    async def phrases(self, owner: str | None = None) -> Sequence[PhraseRecord]:
         """See `Store.phrases`."""
-        query = select(PHRASES).where(PHRASES.c.owner == owner).order_by(PHRASES.c.language, PHRASES.c.key)
+        query = select(PHRASES).order_by(PHRASES.c.owner, PHRASES.c.language, PHRASES.c.key)
+        if owner is not None:
+            query = query.where(PHRASES.c.owner == owner)
         async with self._transaction() as connection:
             rows = (await connection.execute(query)).all()
         return [

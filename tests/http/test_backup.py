@@ -83,7 +83,7 @@ async def test_one_is_made_at_a_time_and_nothing_is_left(service: Service) -> No
     go_on.set()
     answer = await first
     assert answer.status_code == 200
-    assert answer.headers["content-type"] == "application/vnd.sqlite3"
+    assert answer.headers["content-type"] == "application/octet-stream"
     assert len(answer.content) == int(answer.headers["content-length"])
     assert (await service.client.get("/api/v1/backup")).status_code == 200
 

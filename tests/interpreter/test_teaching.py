@@ -104,9 +104,9 @@ async def test_a_meaning_is_fixed_when_it_is_taught(talk: Talk) -> None:
     await talk.say("forget frob")
     assert (await talk.say("nicate"))["actions"] == PAUSE
     await talk.say("add a cone")
-    await talk.say("when I say tidy, I mean remove it")
+    await talk.say("when I say frobnicate, I mean remove it")
     await talk.say("add a cone")
-    said = await talk.say("tidy")
+    said = await talk.say("frobnicate")
     assert said["actions"][0]["where"] == {"id": "barrier-1"}
 
 
@@ -313,5 +313,9 @@ async def test_a_word_of_a_built_in_saying_may_be_taught_and_leaves_it_alone(tal
     await talk.say("when I say carry, I mean add two cars")
     assert (await talk.say("carry"))["actions"] == TWO_CARS
     assert (await talk.say("carry on"))["actions"] == [{"do": "resume"}]
-    await talk.say("when I say drive, I mean add two cars")
+
+
+async def test_a_word_that_begins_requests_by_itself_stays_what_it_is(talk: Talk) -> None:
+    answer = await talk.act(teach("drive", TWO_CARS))
+    assert (answer.status_code, answer.json()["type"]) == (422, "/problems/not-teachable")
     assert (await talk.say("let me drive"))["actions"] == [{"do": "mode", "mode": "manual"}]

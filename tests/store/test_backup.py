@@ -20,7 +20,7 @@ from alembic.script import ScriptDirectory
 
 from service.store import EntryRecord, LockedError, MemoryStore, SessionRecord, SqlStore, Store, StoreError
 from service.store.backup import check_backup
-from service.store.base import Branch, PhraseRecord, SnapshotRecord, StoredResponse
+from service.store.base import Branch, JobRecord, PhraseRecord, SnapshotRecord, StoredResponse
 from service.store.engines import database_for
 from service.store.restore import NotEmptyError, restore_database
 from service.store.schema import MIGRATIONS
@@ -50,6 +50,11 @@ async def fill(store: Store) -> None:
     await store.create(record("gone"), [ENTRY])
     await store.create(record("child", branch=replace(branch, parent="gone")))
     await store.delete("gone")
+    when = datetime(2026, 1, 2, tzinfo=UTC)
+    await store.create_job(
+        JobRecord(id="j", kind="evaluation", state="running", created_at=when, spec={"runs": 3}, total=3)
+    )
+    await store.save_job_part("j", "p1", b"\x01", 1)
     await store.save_snapshot(
         SnapshotRecord(session="one", sequence=1, tick=3, version="1", checksum="c", body=b"\0x")
     )

@@ -41,6 +41,7 @@ from service.http.realtime.once import run_once
 from service.http.realtime.websocket_auth import authenticate
 from service.http.session_json import PREFIX
 from service.http.validation import field_problems, invalid
+from service.interpreter.owners import ask_as
 from service.problems import Internal, Invalid, Malformed, ProblemError
 from service.security.guard import client_of
 from service.sessions.messages import state_message
@@ -73,6 +74,7 @@ async def stream(socket: WebSocket, session_id: str) -> None:
     if not await authenticate(socket):
         return
     context = context_of(socket)
+    ask_as(client_of(socket.scope))
     try:
         check_query(socket.query_params.multi_items(), _QUERY)
         session = await context.manager.get(session_id)

@@ -26,7 +26,7 @@ from service.problems import BackupFailed, BackupUnderWay
 from service.store import StoreError
 from service.store.place import backup_place, database_mark
 
-MEDIA_TYPE = "application/vnd.sqlite3"
+MEDIA_TYPE = "application/octet-stream"
 DATABASE_HEADER = "Roadtalk-Database"
 """Which database it is of, without its name: the command line compares it with the one that was meant."""
 

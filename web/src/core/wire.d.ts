@@ -765,7 +765,7 @@ export interface NewEvaluation {
   /** Of the first episode. Default: the session's, else 0. */
   seed?: number | null;
   /** Of the text and the report. In which language; `GET /language` names them. Default: the session's. */
-  language?: string | null;
+  language?: "en" | "de" | null;
 }
 
 /** How another session goes on from a tick of this one. */
@@ -824,7 +824,7 @@ export interface NewSession {
   /** Replay this; alone but for name and paused. */
   recording?: Recording | null;
   /** Of its log, narration and replies, and of `scenario`; `GET /language` names them. Default: a recording's own, else en. A link that names a session keeps that session's. */
-  language?: string | null;
+  language?: "en" | "de" | null;
   /** Open this; alone but for name and paused. See `link`. */
   link?: string | null;
 }
@@ -970,7 +970,7 @@ export interface ProblemMessage {
 export interface Question {
   question: string;
   /** In which language; `GET /language` names them. Default: the session's. */
-  language?: string | null;
+  language?: "en" | "de" | null;
 }
 
 /** The store answers. */
@@ -1040,7 +1040,7 @@ export interface Recording {
   /** Where it ends. */
   tick: number;
   /** Of its log; en where none is named. */
-  language?: string | null;
+  language?: "en" | "de" | null;
   /** What the world at its end must be. */
   digest: string;
   /** Of the service that made it, which takes it although it is longer than others may be. */
@@ -1142,7 +1142,7 @@ export interface Said {
   /** Say what would be done, and do nothing. */
   dry_run?: boolean;
   /** In which language; `GET /language` names them. Default: the session's. */
-  language?: string | null;
+  language?: "en" | "de" | null;
 }
 
 /** Keep the session under a name. */
