@@ -62,8 +62,14 @@ OWN_TABLES = {
 SAID_OTHERWISE = {
     "de": {
         ("advice", "hazards", "other", "a"),
+        ("ahead", "wait", "later"),
+        ("ahead", "wait", "now"),
         ("answers", "never_made"),
         ("ends", "sakes", "other", "0"),
+        ("rules", "until_when", "near_closer_than_m_kind"),
+        ("rules", "until_when", "near_kind_within_m"),
+        ("rules", "when", "near_closer_than_m_kind"),
+        ("rules", "when", "near_kind_within_m"),
         ("scene", "a", "other"),
         ("scene", "held"),
         ("scene", "met"),

@@ -17,6 +17,8 @@ from sim.config import Config
 from sim.session.timeline import Timeline
 
 OFFERED: list[dict[str, Any]] = [
+    {"do": "trigger", "when": {"fact": "crash"}, "then": [{"do": "pause"}]},
+    {"do": "cancel", "which": "all"},
     {"do": "add", "kind": "pothole", "count": 1},
     {"do": "remove", "kind": "everything", "count": "all"},
     {"do": "set_count", "kind": "vehicle", "count": 3},
@@ -115,6 +117,8 @@ def test_what_is_offered_is_done(action: dict[str, Any]) -> None:
         transaction.perform(2, contract.load([{"do": "undo"}]))
     if action["do"] == "rewind":
         transaction.perform(2, contract.load([{"do": "step", "ticks": 2}]))
+    if action["do"] == "cancel":
+        transaction.perform(2, contract.load([OFFERED[0]]))
     if action["do"] == "load":
         transaction.perform(2, contract.load([{"do": "save", "name": "monday"}]))
     (fact,) = transaction.perform(3, (loaded,))
