@@ -210,10 +210,9 @@ class Config(Derived):
         for name, value in known.items():
             object.__setattr__(self, name, value)
 
-    def __setstate__(self, values: list[Any]) -> None:
-        for field, value in zip(fields(self), values, strict=True):
-            object.__setattr__(self, field.name, value)
-        self._derive()
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Not `__setstate__`: frozen dataclasses with slots replace it before Python 3.11.4.
+        return _restored, tuple(getattr(self, field.name) for field in fields(self))
 
     def with_parts(self, **parts: Any) -> Config:
         """This configuration with some fields changed. Raises `ConfigError`."""
@@ -313,6 +312,15 @@ COUNTS: Final[Mapping[Kind, str]] = {
     kind: KINDS[kind].plural for kind in PLACEABLE if KINDS[kind].plural in _NUMBERS
 }
 """The field of the exact number of each kind; a kind without one is only put on a road by hand."""
+
+
+def _restored(*values: Any) -> Config:
+    """A configuration from the values of its fields, which are known to fit."""
+    config: Config = object.__new__(Config)
+    for field, value in zip(fields(Config), values, strict=True):
+        object.__setattr__(config, field.name, value)
+    config._derive()
+    return config
 
 
 def _unknown(name: str) -> Problem:
