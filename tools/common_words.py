@@ -4,8 +4,8 @@
 
 A dictionary is a text file with a word on each line, such as those of SCOWL (http://wordlist.aspell.net,
 free to use; Debian package `wamerican-small`). "Hopes" is one letter from "holes", and no typo. The
-plural and the singular of a word of ours are left out: they mean the same. Run it again after the
-vocabulary has grown.
+plural and the singular of a word of ours are left out, unless they are listed already: they mean the same.
+Run it again after the vocabulary has grown.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ def common_words(language: Language, words: set[str], mistakes: Set[str] = froze
     found = []
     for word in words - mistakes:
         meant = None if language.data.knows(word) else typos.repair(word)
-        if meant is not None and word not in (f"{meant}s", meant.removesuffix("s")):
+        same = word in (f"{meant}s", str(meant).removesuffix("s"))
+        if meant is not None and (word in language.data.typos.never or not same):
             found.append(word)
     return sorted(found)
 

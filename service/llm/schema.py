@@ -8,6 +8,7 @@ contract is out of a model's reach until its row says otherwise.
 from __future__ import annotations
 
 import json
+import re
 from functools import cache
 from typing import Any, Final, get_args
 
@@ -52,12 +53,15 @@ _UNSPOKEN = frozenset(("ego",))
 @cache
 def schema() -> str:
     """The types that actions are made of, then the actions, one a line, each with what it does."""
-    lines = [f"type {name} = {_type(part)}" for name, part in _TYPES.items() if name not in _DO]
-    lines += [
+    actions = [
         f"{_object(part)}  // {part['description'].splitlines()[0]}"
         for name, part in _TYPES.items()
         if _DO.get(name) in MAY
     ]
+    types = {name: _type(part) for name, part in _TYPES.items() if name not in _DO}
+    told = "\n".join((*actions, *types.values()))
+    lines = [f"type {name} = {part}" for name, part in types.items() if re.search(rf"\b{name}\b", told)]
+    lines += actions
     lines += [f"values of {parameter}: {' '.join(words)}" for parameter, words in WORDS.items()]
     return "\n".join(lines)
 

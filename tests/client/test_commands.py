@@ -109,7 +109,7 @@ def test_a_session_is_watched_for_some_ticks(process: ServiceProcess, client: Cl
         moves = [decision.move for decision in session.step(3).decisions]
         out, err = watcher.communicate(timeout=120)
     assert (watcher.returncode, err) == (0, "")
-    told = [line.split() for line in out.splitlines() if "*" not in line]
+    told = [line.split() for line in out.splitlines() if "*" not in line and "Nothing happens" not in line]
     assert [line[:2] for line in told] == [[str(tick), move] for tick, move in enumerate(moves, 1)]
 
 
@@ -118,6 +118,7 @@ def test_watching_ends_cleanly_with_the_interrupt_key(process: ServiceProcess, c
     with watching(process, session) as watcher:
         assert watcher.stdout is not None
         assert watcher.stdout.readline().startswith("Watching ")
+        assert watcher.stdout.readline().startswith("Nothing happens while it is paused")
         session.say("add five potholes")
         assert "add five potholes: Added 5 potholes" in watcher.stdout.readline()
         watcher.send_signal(signal.SIGINT)
@@ -165,7 +166,7 @@ def test_sessions_in_a_table(process: ServiceProcess, client: Client) -> None:
     told = run("sessions", "--limit", "2", "--url", process.url)
     row = next(line for line in told.stdout.splitlines() if fork.id in line)
     assert row.split()[-4:] == ["77", f"{session.id},", "tick", "0"]
-    assert table(()).row_count == 0
+    assert table(())[1] == []
     assert SessionSummary.__dataclass_params__.frozen  # type: ignore[attr-defined]
 
 
@@ -226,7 +227,7 @@ def test_what_is_no_recording(text: str, tmp_path: Path) -> None:
     file.write_text(text)
     told = CliRunner().invoke(cli, ["replay", str(file)])
     assert told.exit_code == 1
-    assert len(told.stderr.splitlines()) == 1
+    assert len([line for line in told.stderr.splitlines() if not line.startswith("Loading")]) == 1
     assert CliRunner().invoke(cli, ["replay", str(tmp_path / "none.json")]).exit_code == 1
 
 

@@ -21,7 +21,7 @@ from tools.slow_sentences import HERE, LONGEST, completing, labelled, reading
 LAST = READ_STEPS + TOKEN_STEPS * MAX_TOKENS
 """Steps of the largest single payment: so much may be spent past the bound."""
 
-KNOWN = MOST_STEPS // 5
+KNOWN = MOST_STEPS // 4
 """What no labelled sentence comes near."""
 
 THREE_CORRECTED = (
@@ -51,7 +51,7 @@ def test_no_labelled_sentence_comes_near_the_bound(language: Language, german: L
 def test_a_correction_at_the_end_of_much_is_read_within_the_bound(language: Language) -> None:
     work = WorkBudget()
     parsed = language.parse(THREE_CORRECTED, ALONE, work)
-    assert work.spent < MOST_STEPS * 3 // 4
+    assert work.spent <= MOST_STEPS + LAST  # what is refused is read once more, as a rule
     assert isinstance(parsed, Refused)
     assert parsed.unparsed, "refused for its words, not for its work"
 

@@ -69,7 +69,7 @@ class Retention:
                 break  # somebody uses one of them just now: the next sweep looks again
             await asyncio.sleep(PAUSE_S)
         if deleted:
-            _LOG.info("unused sessions were deleted", count=deleted, days=self._days)
+            _LOG.info("retention", count=deleted, days=self._days)
         return deleted
 
     async def run(self) -> None:
@@ -81,7 +81,7 @@ class Retention:
             try:
                 await self.sweep()
             except StoreError as error:
-                _LOG.warning("unused sessions could not be deleted", error=str(error))
+                _LOG.warning("retention_failed", error=str(error))
 
 
 def _steady_clock() -> Callable[[], datetime]:
