@@ -345,11 +345,11 @@ async def test_a_dialogue_over_the_stream() -> None:
 
 
 async def test_going_back_to_a_name_is_going_there_only_where_it_was_given(talk: Talk) -> None:
-    assert (await talk.say("go back to quiet"))["actions"][0]["do"] == "set"
-    await talk.say("save this as quiet")
-    for text in ("go back to quiet", "return to quiet", "take me back to quiet", "restore quiet"):
+    assert (await talk.say("go back to rain"))["actions"][0]["do"] == "set"
+    await talk.say("save this as rain")
+    for text in ("go back to rain", "return to rain", "take me back to rain", "restore rain"):
         await talk.say("advance one tick")
-        assert (await talk.say(text))["actions"] == [{"do": "load", "name": "quiet"}], text
+        assert (await talk.say(text))["actions"] == [{"do": "load", "name": "rain"}], text
     said = await talk.say("let me drive, then go back to auto")
     assert said["actions"][-1] == {"do": "mode", "mode": "auto"}
     await talk.refused("go back to monday")
