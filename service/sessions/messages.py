@@ -57,7 +57,7 @@ def tick_message(
 ) -> bytes:
     """One tick: what moved, or the whole state where a new road began or a rule was done (with `status`)."""
     world = after.world
-    if world.episode != before.world.episode or after.triggers is not before.triggers:
+    if world.episode != before.world.episode or after.triggers != before.triggers:
         seen: Json = {"state": state_json(status(), after)}
     else:
         seen = motion_json(before.world, world)

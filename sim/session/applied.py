@@ -61,7 +61,7 @@ def differences(before: SimState, after: SimState) -> tuple[Change, ...]:
             was, now = getattr(before.config, field.name), getattr(after.config, field.name)
             if was != now:
                 changes.append(Change(f"config.{field.name}", was, now))
-    if before.triggers is not after.triggers:
+    if before.triggers != after.triggers:
         made = (len(state.triggers.standing) for state in (before, after))
         changes.append(Change("triggers", *made))
     for was, ego in zip(before.egos.values(), after.egos.values(), strict=True):

@@ -109,7 +109,7 @@ class Packer:
         parts = [self.config(state.config), self._world(state.world), mode, queue, metrics, state.edits]
         parts += [fault, record, watch]
         # One ego with the configuration's planner is nearly all there is, and all there was once.
-        if state.triggers is not NO_TRIGGERS:
+        if state.triggers != NO_TRIGGERS:
             return [*parts, planner, others, self._rules(state.triggers)]
         return [*parts, planner, others] if others or planner is not None else parts
 
