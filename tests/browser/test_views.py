@@ -135,7 +135,7 @@ def test_parts_are_shown_and_hidden_by_sentence_on_every_page_that_watches(visit
     expect(part(second, "occupancy")).to_be_visible()
     refused = first.say("show the sensors")
     assert refused.get_attribute("data-standing") == "refused"
-    expect(refused.locator(".reply")).to_contain_text("there are none")
+    expect(refused.locator(".reply")).to_contain_text("not available yet")
 
 
 def test_the_plan_tells_the_next_move_and_why_not_the_others(visit: Visit) -> None:
