@@ -15,13 +15,14 @@ from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 from pydantic import ValidationError
 
 from service.actions import Action, Resume, dump, load
+from service.grammar.accounting import WHOLE
 from service.grammar.clause_patterns import Sentence
 from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.parse_types import Ambiguous, Choice, Correction, Parse, Refused, Understood
 from service.grammar.paths import SEPARATOR
 from service.grammar.rule_words import COMMAND, JOINT, KEEP, ONCE, PARTS, TIMES, UNTIL, WHEN, RuleWords
 from service.grammar.sentences import Unsayable
-from service.grammar.tokens import normalise, tokenise, with_text
+from service.grammar.tokens import Token, normalise, tokenise, with_text
 from service.grammar.topic import Topic
 from service.grammar.typos import Typos
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
@@ -75,6 +76,8 @@ class RuleReader:
                 tokens[at] = with_text(token, meant)
         if self._words.begins.isdisjoint(token.text for token in tokens):
             return None
+        if self._has_words_for_others(tokens):
+            return None
         numbers = self._language.data.numbers
         said = Sentence(
             tokens,
@@ -89,6 +92,15 @@ class RuleReader:
         if len(readings) == 1:
             return Understood(text, readings[0], tuple(corrections))
         return self._which(text, readings)
+
+    def _has_words_for_others(self, tokens: Sequence[Token]) -> bool:
+        """Whether there are words that no rule has a use for, and that turn what it says: "instead of"."""
+        return any(
+            edge.concept == WHOLE
+            and self._words.begins.isdisjoint(token.text for token in tokens[edge.start : edge.end])
+            for starting in self._language.scan(tokens).edges
+            for edge in starting
+        )
 
     def _meant(self, word: str) -> str | None:
         if not word.isalpha() or self._language.data.knows(word) or word in self._words.patterns.words:
