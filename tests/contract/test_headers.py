@@ -119,7 +119,10 @@ async def test_the_same_key_is_the_same_answer_and_done_once(
     client: httpx.AsyncClient, method: str, path: str, operation: Json
 ) -> None:
     identity = await new_session(client)
-    target, headers = path.format(session_id=identity), {"Idempotency-Key": f"{method}{path}{identity}"}
+    target, headers = (
+        path.format(evaluation_id="e", session_id=identity),
+        {"Idempotency-Key": f"{method}{path}{identity}"},
+    )
     first = await client.request(method, target, json=body_of(operation), headers=headers)
     assert first.is_success, first.text
     after = await standing(client, identity)
@@ -137,7 +140,10 @@ async def test_a_key_is_one_requests_own(
     client: httpx.AsyncClient, method: str, path: str, operation: Json
 ) -> None:
     identity = await new_session(client)
-    target, headers = path.format(session_id=identity), {"Idempotency-Key": f"own{method}{path}{identity}"}
+    target, headers = (
+        path.format(evaluation_id="e", session_id=identity),
+        {"Idempotency-Key": f"own{method}{path}{identity}"},
+    )
     await client.request(method, target, json=body_of(operation), headers=headers)
     before = await standing(client, identity)
     other = {**(body_of(operation) or {}), "surprise": 1}
@@ -152,7 +158,7 @@ async def test_a_key_is_one_requests_own(
 async def test_what_is_no_key_is_refused(
     client: httpx.AsyncClient, method: str, path: str, operation: Json, key: str
 ) -> None:
-    target = path.format(session_id=await new_session(client))
+    target = path.format(evaluation_id="e", session_id=await new_session(client))
     headers = {"Idempotency-Key": key}
     refused = await client.request(method, target, json=body_of(operation), headers=headers)
     assert problem(refused, 422, "invalid")["errors"][0]["field"] == "Idempotency-Key"
@@ -163,7 +169,7 @@ async def test_a_stale_tag_holds_back_everything(
     client: httpx.AsyncClient, method: str, path: str, operation: Json
 ) -> None:
     identity = await new_session(client)
-    target, before = path.format(session_id=identity), await standing(client, identity)
+    target, before = path.format(evaluation_id="e", session_id=identity), await standing(client, identity)
     for stale in ('"0"', '"99"', 'W/"1"', '"another"'):
         headers = {"If-Match": stale}
         refused = await client.request(method, target, json=body_of(operation), headers=headers)
@@ -180,7 +186,7 @@ async def test_what_is_wrong_by_its_form_is_told_before_what_is_stale(
     client: httpx.AsyncClient, method: str, path: str, operation: Json
 ) -> None:
     identity = await new_session(client)
-    target, stale = path.format(session_id=identity), {"If-Match": '"99"'}
+    target, stale = path.format(evaluation_id="e", session_id=identity), {"If-Match": '"99"'}
     before = await standing(client, identity)
     if "requestBody" in operation:
         bad = {**(body_of(operation) or {}), "surprise": 1}
@@ -196,7 +202,7 @@ async def test_what_is_wrong_by_its_form_is_told_before_what_is_stale(
     no_tag = {"If-Match": "1"}
     refused = await client.request(method, target, json=body_of(operation), headers=no_tag)
     assert problem(refused, 422, "invalid")["errors"][0]["field"] == "If-Match"
-    nobody = path.format(session_id="nobody")
+    nobody = path.format(evaluation_id="e", session_id="nobody")
     gone = await client.request(method, nobody, json=body_of(operation), headers=stale)
     problem(gone, 404, "unknown-session")
     assert await standing(client, identity) == before
@@ -207,7 +213,7 @@ async def test_a_body_that_is_too_large_or_of_another_kind_is_refused(
     client: httpx.AsyncClient, method: str, path: str, operation: Json
 ) -> None:
     identity = await new_session(client)
-    target, before = path.format(session_id=identity), await standing(client, identity)
+    target, before = path.format(evaluation_id="e", session_id=identity), await standing(client, identity)
     whole = json.dumps(body_of(operation)).encode()
     for kind in (
         "text/plain",
@@ -229,7 +235,10 @@ async def test_a_body_that_is_too_large_or_of_another_kind_is_refused(
 @pytest.mark.parametrize("path", DOCUMENT["paths"])
 async def test_another_method_is_refused_with_those_there_are(client: httpx.AsyncClient, path: str) -> None:
     identity = await new_session(client)
-    target, before = path.format(session_id=identity, tick=1), await standing(client, identity)
+    target, before = (
+        path.format(evaluation_id="e", session_id=identity, tick=1),
+        await standing(client, identity),
+    )
     for method in METHODS:
         if method in DOCUMENT["paths"][path]:
             continue
@@ -247,7 +256,7 @@ async def test_nobody_makes_more_than_the_quota(method: str, path: str, operatio
     async with httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://localhost") as client:
         identity = await new_session(client)
         before = await standing(client, identity)
-        target = path.format(session_id=identity)
+        target = path.format(evaluation_id="e", session_id=identity)
         problem(await client.request(method, target, json=body_of(operation)), 429, "over-quota")
         assert await standing(client, identity) == before
         assert "429" in operation["responses"]
@@ -258,7 +267,7 @@ async def test_a_session_names_every_part_of_it(client: httpx.AsyncClient) -> No
     links = (await client.get(f"/api/v1/sessions/{identity}")).json()["links"]
     own = f"/api/v1/sessions/{identity}"
     parts = {
-        path.format(session_id=identity)
+        path.format(evaluation_id="e", session_id=identity)
         for path in DOCUMENT["paths"]
         if "{session_id}" in path and "{tick}" not in path
     }
