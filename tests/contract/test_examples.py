@@ -66,7 +66,7 @@ async def test_an_example_is_answered_as_documented(
     valid(operation["requestBody"]["content"][kind]["schema"], body)
     identity = await new_session(client)
     answer = await client.request(
-        method, path.format(session_id=identity), json=body, headers={"content-type": kind}
+        method, path.format(evaluation_id="e", session_id=identity), json=body, headers={"content-type": kind}
     )
     assert answer.is_success, answer.text
     documented = operation["responses"][str(answer.status_code)]["content"]["application/json"]
@@ -97,7 +97,7 @@ async def test_a_key_and_a_tag_are_documented_where_they_are_taken(
     told = {parameter["name"] for parameter in operation.get("parameters", []) if parameter["in"] == "header"}
     identity = await new_session(client)
     headers = {"content-type": kind, "Idempotency-Key": f"{path}-{identity}", "If-Match": '"1"'}
-    target = path.format(session_id=identity)
+    target = path.format(evaluation_id="e", session_id=identity)
     answers = [await client.request(method, target, json=body, headers=headers) for _ in range(2)]
     assert [answer.is_success for answer in answers] == [True, True], answers[1].text
     assert ("Idempotency-Key" in told) == ("idempotency-replayed" in answers[1].headers)

@@ -161,7 +161,7 @@ def request_examples() -> Iterator[Any]:
 @pytest.mark.parametrize(("path", "operation", "body"), list(request_examples()))
 async def test_every_example_runs(client: httpx.AsyncClient, path: str, operation: Json, body: Json) -> None:
     identity = await new_session(client)
-    answer = await client.post(path.format(session_id=identity), json=body)
+    answer = await client.post(path.format(evaluation_id="e", session_id=identity), json=body)
     assert answer.is_success, answer.text
     assert str(answer.status_code) in operation["responses"]
 
@@ -199,7 +199,7 @@ async def test_unknown_keys_are_refused_everywhere(client: httpx.AsyncClient, pa
     operation = DOCUMENT["paths"][path]["post"]
     for example in operation["requestBody"]["content"]["application/json"]["examples"].values():
         body = {**example["value"], "surprise": 1}
-        answer = await client.post(path.format(session_id=identity), json=body)
+        answer = await client.post(path.format(evaluation_id="e", session_id=identity), json=body)
         assert answer.status_code == 422
         assert answer.json()["errors"] == [{"field": "surprise", "message": "is not a known key"}]
 
@@ -212,7 +212,9 @@ async def test_an_unknown_session_is_unknown_everywhere(client: httpx.AsyncClien
             body = next(iter(operation["requestBody"]["content"]["application/json"]["examples"].values()))[
                 "value"
             ]
-        answer = await client.request(method, path.format(session_id="nobody", tick=1), json=body)
+        answer = await client.request(
+            method, path.format(evaluation_id="e", session_id="nobody", tick=1), json=body
+        )
         assert (answer.status_code, answer.json()["type"]) == (404, "/problems/unknown-session")
         assert answer.headers["content-type"] == "application/problem+json"
 
@@ -330,7 +332,9 @@ async def post(path: str, content: bytes) -> None:
         target = f"/api/v1/sessions/{identity}"
         before = (await client.get(f"{target}/state")).json()
         headers = {"content-type": "application/json"}
-        answer = await client.post(path.format(session_id=identity), content=content, headers=headers)
+        answer = await client.post(
+            path.format(evaluation_id="e", session_id=identity), content=content, headers=headers
+        )
         assert_in_contract(path, answer)
         if not answer.is_success:
             assert (await client.get(f"{target}/state")).json() == before
