@@ -21,7 +21,7 @@ def german() -> Language:
         ("put three cones on the moon", "on the moon"),
         ("add two cars in the sky and three potholes", "in the sky"),
         ("please add a big red truck in lane 3", "big red"),
-        ("add a car every ten ticks", "every ten ticks"),
+        ("add a car every full moon", "every full moon"),
         ("add five potholes unless it rains", "unless it rains"),
         ("turn left at the second traffic light", "at the second traffic light"),
         ("remove the cars that are red", "that are red"),
