@@ -1,0 +1,65 @@
+"""The costs of every move by compiled words, once they have been loaded: what the searches find, many times faster.
+
+A session that nobody asks about needs none of it. An explanation takes hundreds of decisions, and so it has
+this loaded first (`load_compiled_costs`), if it was ever compiled on this machine; from then on the planners
+that weigh costs answer from it. The answers are the same ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from sim.forecast import Forecast
+from sim.search.costs import Weights
+from sim.types import MOVES, Move
+
+
+@dataclass(frozen=True, slots=True)
+class CompiledCosts:
+    """What every move costs in all."""
+
+    totals: tuple[int | None, ...]
+    """with the cheapest way on, in the order of `Move`; None: no way"""
+    lasting: Move | None
+    """where no move leads to the goal: the one after which the ego keeps clear longest"""
+
+
+_Found = Callable[[Forecast, Weights, int], "tuple[tuple[int | None, ...], int | None] | None"]
+_found: _Found | None = None
+
+
+def load_compiled_costs(*, compile_now: bool = False) -> bool:
+    """Load the compiled costs, unless they would have to be compiled first; whether they are there now.
+
+    Compiling takes some ten seconds, once for each version; `compile_now` does it where it is needed.
+    """
+    global _found
+    if _found is None:
+        from sim.batch.one_decision import is_ready, make_ready, totals_where_compiled
+
+        if not is_ready() and not compile_now:
+            return False
+        make_ready()
+        _found = totals_where_compiled
+    return True
+
+
+def forget_compiled_costs() -> None:
+    """Search from now on; what is decided is the same."""
+    global _found
+    _found = None
+
+
+def compiled_costs(forecast: Forecast, weights: Weights, limit: int) -> CompiledCosts | None:
+    """What every move costs with `limit` ticks left; None where it must be searched for.
+
+    That is where nothing is loaded, and of roads, movers or sensors that it is not compiled for.
+    """
+    if _found is None:
+        return None
+    found = _found(forecast, weights, limit)
+    if found is None:
+        return None
+    totals, lasting = found
+    return CompiledCosts(totals, None if lasting is None else MOVES[lasting])
