@@ -14,15 +14,13 @@ in the order of `NOW_RIGHT`, the one of movers held by hazards in its place, wit
 from __future__ import annotations
 
 from contextlib import suppress
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from llvmlite.binding import get_host_cpu_name
 from numpy.typing import NDArray
 
 from sim.batch.backward_dp import BUFFER, FAR, TICK, _around, _cost_of_way, _sweep
-from sim.batch.compiled import cache_folder, compiled, free_steps, max_ticks
+from sim.batch.compiled import compiled, free_steps, max_ticks
 from sim.batch.layout import Layout
 from sim.batch.reachability import (
     ALL_FIXED,
@@ -44,10 +42,12 @@ from sim.batch.reachability import (
     search,
     someone_brakes,
 )
+from sim.compiled_files import ready_mark
 from sim.forecast import Forecast
 from sim.perceive import Percept
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR
 from sim.rules.dynamics import DEFAULT_DYNAMICS
+from sim.search.compiled_costs import COMPILED
 from sim.search.costs import Weights
 from sim.types import MARKED, Kind
 
@@ -198,27 +198,15 @@ def _decided(seen, cell, columns, rows, left_edge, right_edge, episode_tick, lim
     return np.intp(-1) if found else lasting
 
 
-def is_ready() -> bool:
-    """Whether this was compiled before for this processor, so that it is loaded and not compiled."""
-    marker = _marker()
-    return marker is not None and marker.exists()
-
-
 def make_ready() -> None:
-    """Compile this, or load what was compiled."""
+    """Compile this, or load what was compiled before."""
     seen = np.zeros((VEHICLE, 1), np.uint64)
     charges, out = _charges(Weights(60, 12, 9, 4, 2, 24, 1, 40)), np.empty(6, np.int64)
     _decided(seen, 1, 1, 2, _ONE, _ONE, 0, 2, _ALL, 0, charges, out)
-    marker = _marker()
-    if marker is not None:
+    mark = ready_mark(COMPILED)
+    if mark is not None:
         with suppress(OSError):
-            marker.touch()
-
-
-def _marker() -> Path | None:
-    """The file that says that it was compiled; None where nothing is kept."""
-    folder = cache_folder()
-    return None if folder is None else folder / f"one_decision-{get_host_cpu_name()}.ready"
+            mark.touch()
 
 
 def totals_where_compiled(
@@ -303,6 +291,3 @@ def _charges(weights: Weights) -> NDArray[np.int64]:
         np.int64,
     )
 
-
-if __name__ == "__main__":
-    make_ready()

@@ -11,7 +11,10 @@ from typing import Final
 
 from sim.config import Config
 from sim.plan import Decision, Measure, traits_of
+from sim.rules.compiled import compiled_rules
+from sim.search.compiled_costs import load_compiled_costs
 from sim.search.costs import weights
+from sim.state import SimState
 
 FOR_CAUSES: Final = 1_500
 """Work of looking for causes; a unit is some ten microseconds."""
@@ -26,6 +29,8 @@ _DECISION: Final = 4
 """Work of a decision that looks no further than the next tick."""
 _TICK: Final = {Measure.TICKS: 1, Measure.COST: 4}
 """Work of each tick of a way to the goal, by what is weighed."""
+_COMPILED: Final = 15
+"""Work of a decision by cost where the compiled costs answer (`sim.search.compiled_costs`)."""
 _NO_WAY: Final = 3
 """Ticks for each row of the road that count for a decision that finds no way to the goal."""
 
@@ -45,12 +50,21 @@ class WorkSpentError(Exception):
     """The work that an answer may take is done; what was found before holds."""
 
 
+def prepare(state: SimState) -> None:
+    """Load what makes the decisions of an explanation quick, where a planner on this road weighs costs."""
+    planners = {each.planner or state.config.planner for each in state.egos.values()}
+    if any(traits_of(planner).weighs_costs for planner in planners):
+        load_compiled_costs()
+
+
 def work_of(decision: Decision, config: Config) -> int:
     """The work of a decision, estimated by what it found: how long it really took hangs on what was kept."""
     of_tick = _TICK.get(decision.measure, 0)
     cost = decision.chosen.cost
     if not of_tick or traits_of(decision.planner).quick:
         return _DECISION
+    if decision.measure is Measure.COST and compiled_rules(config):
+        return _COMPILED
     if cost is None:
         return _DECISION + of_tick * _NO_WAY * config.rows
     return _DECISION + of_tick * int(cost / (weights(config).tick if decision.measure is Measure.COST else 1))

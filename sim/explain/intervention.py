@@ -17,7 +17,7 @@ from dataclasses import replace
 from sim.actions import Add, Where, WorldAction
 from sim.config import Config
 from sim.decide import announced_before, decide_on, sense
-from sim.explain.effort import WorkSpentError, work_of
+from sim.explain.effort import WorkSpentError, prepare, work_of
 from sim.explain.factors import factors, is_factor, removal, without
 from sim.explain.facts import Counterfactual, QuestionError
 from sim.perceive import Percept, sensor_named
@@ -53,6 +53,7 @@ class Intervention:
         self.state = state
         self.decision = decision
         self.ego = decision.av
+        prepare(state)
         announced = announced_before(state, self.ego) if announced is None else announced
         self.percept = sense(state, announced, self.ego)[0]
         """what was seen when it was taken"""

@@ -9,10 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Final
 
+from sim.compiled_files import ready_mark
 from sim.forecast import Forecast
 from sim.search.costs import Weights
 from sim.types import MOVES, Move
+
+
+COMPILED: Final = "one_decision"
+"""Under which it is kept that they were compiled (`sim.compiled_files`)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,13 +42,19 @@ def load_compiled_costs(*, compile_now: bool = False) -> bool:
     """
     global _found
     if _found is None:
-        from sim.batch.one_decision import is_ready, make_ready, totals_where_compiled
-
-        if not is_ready() and not compile_now:
+        if not (compile_now or are_compiled()):
             return False
+        from sim.batch.one_decision import make_ready, totals_where_compiled
+
         make_ready()
         _found = totals_where_compiled
     return True
+
+
+def are_compiled() -> bool:
+    """Whether they were compiled on this machine before, so that they are quickly loaded."""
+    mark = ready_mark(COMPILED)
+    return mark is not None and mark.exists()
 
 
 def forget_compiled_costs() -> None:
@@ -63,3 +75,7 @@ def compiled_costs(forecast: Forecast, weights: Weights, limit: int) -> Compiled
         return None
     totals, lasting = found
     return CompiledCosts(totals, None if lasting is None else MOVES[lasting])
+
+
+if __name__ == "__main__":  # in a process of its own, so that nobody waits for a compiler
+    load_compiled_costs(compile_now=True)
