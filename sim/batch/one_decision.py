@@ -19,7 +19,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.batch.backward_dp import BUFFER, FAR, TICK, _around, _cost_of_way, _sweep
+from sim.batch.backward_dp import BUFFER, FAR, TICK, _around, _cost_of_way, _sweep, _totals_of_way
 from sim.batch.compiled import compiled, free_steps, max_ticks
 from sim.batch.layout import Layout
 from sim.batch.reachability import (
@@ -47,9 +47,9 @@ from sim.forecast import Forecast
 from sim.perceive import Percept
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR
 from sim.rules.dynamics import DEFAULT_DYNAMICS
-from sim.search.compiled_costs import COMPILED
+from sim.search.compiled_costs import COMPILED, Unlike
 from sim.search.costs import Weights
-from sim.types import MARKED, Kind
+from sim.types import MARKED, MOVES, Kind, Move
 
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
@@ -160,6 +160,53 @@ def _every_total(scratch, ticks, rolled, cell, last, weights, episode_tick, limi
 
 
 @compiled
+def _moves(seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, moves):
+    """Write the move that is made where each of these is seen (seen: ways to see, 7, words), by its weights."""
+    words = seen.shape[2]
+    now = np.empty((BOARDS, words), np.uint64)
+    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
+    near = np.empty((2 + weights[:, BUFFER].max(), words), np.uint64)
+    value = np.full((rows, columns + 2), FAR, np.int32)
+    entering = np.full((rows, columns + 2), FAR, np.int32)
+    totals = np.full(6, FAR, np.int32)
+    scratch = now, layers, near, value, entering, totals
+    size = columns, left_edge, right_edge
+    row = cell // columns
+    for number in range(seen.shape[0]):
+        least, move, lasted = FAR, np.intp(STAY), 0
+        for stands in (False, True):
+            if stands and not someone_brakes(now, layers, last):
+                break
+            _take(now, seen[number], cell, columns)
+            ticks, rolled, kept_clear = search(
+                now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
+            )
+            if ticks >= 0:
+                _totals_of_way(
+                    scratch,
+                    ticks,
+                    rolled,
+                    cell,
+                    last,
+                    weights[number],
+                    episode_tick,
+                    limit,
+                    size,
+                    swept,
+                )
+                if stands:
+                    totals[:STAY] = FAR
+                if totals.min() < least:
+                    move = np.argmin(totals)
+                    least = totals[move]
+            elif least == FAR and not stands:
+                move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
+            elif least == FAR and kept_clear > lasted:
+                move = np.intp(STAY)
+        moves[number] = move
+
+
+@compiled
 def _decided(seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, out):
     """Write what each move costs in all (−1: no way); returns the move after which one lasts longest.
 
@@ -202,7 +249,9 @@ def make_ready() -> None:
     """Compile this, or load what was compiled before."""
     seen = np.zeros((VEHICLE, 1), np.uint64)
     charges, out = _charges(Weights(60, 12, 9, 4, 2, 24, 1, 40)), np.empty(6, np.int64)
-    _decided(seen, 1, 1, 2, _ONE, _ONE, 0, 2, _ALL, 0, charges, out)
+    place = (1, 1, 2, _ONE, _ONE, 0, 2, _ALL, 0)
+    _decided(seen, *place, charges, out)
+    _moves(seen[None], *place, charges[None], np.empty(1, np.uint8))
     mark = ready_mark(COMPILED)
     if mark is not None:
         with suppress(OSError):
@@ -237,30 +286,59 @@ def totals_of(
     `limit`: steps that are left, in ticks. Precondition: `is_compiled_for`.
     """
     percept = forecast.percept
-    road, boards = percept.road, percept.boards
-    layout = Layout.of(road.columns, road.rows)
-    behind = max(1, weights.buffer)
-    last = min(percept.ego // road.columns + behind, road.rows - 1) // layout.rows_per_word
-    size = layout.rows_per_word * road.columns
-    mask = (1 << size) - 1
-    seen = np.array(
-        [
-            [board >> word * size & mask for word in range(last + 1)]
-            for board in (
-                percept.right,
-                percept.left,
-                boards.marked[_WALKERS],
-                boards.fixed,
-                (percept.right | percept.left) & boards.holding,
-                percept.yielding,
-                percept.attentive,
-            )
-        ],
-        np.uint64,
-    )
+    last = _last_word(percept, weights.buffer)
+    seen = np.array(_words(percept, Unlike(), last), np.uint64)
     out = np.empty(6, np.int64)
-    lasting = _decided(
-        seen,
+    lasting = _decided(seen, *_place(percept, limit), last, _charges(weights), out)
+    totals = tuple([None if total < 0 else total for total in out.tolist()])
+    return totals, None if lasting < 0 else int(lasting)
+
+
+def moves_of(percept: Percept, unlike: Sequence[Unlike], weights: Sequence[Weights], limit: int) -> list[Move]:
+    """The move that is made where each of these things is seen otherwise, by the charges beside it.
+
+    Precondition: `is_compiled_for` with each of the charges, and no ways to see less than one.
+    """
+    last = _last_word(percept, max(each.buffer for each in weights))
+    seen = np.array([_words(percept, each, last) for each in unlike], np.uint64)
+    moves = np.empty(len(unlike), np.uint8)
+    charges = np.array([_charges(each) for each in weights])
+    _moves(seen, *_place(percept, limit), last, charges, moves)
+    return [MOVES[move] for move in moves.tolist()]
+
+
+def _last_word(percept: Percept, buffer: int) -> int:
+    """The last word of what matters: that of the row as far behind the ego as movers are kept clear of."""
+    road = percept.road
+    row = min(percept.ego // road.columns + max(1, buffer), road.rows - 1)
+    return row // Layout.of(road.columns, road.rows).rows_per_word
+
+
+def _words(percept: Percept, unlike: Unlike, last: int) -> list[list[int]]:
+    """What is seen, in the order of `NOW_RIGHT` without the vehicle: the words up to the last."""
+    road, boards = percept.road, percept.boards
+    size = Layout.of(road.columns, road.rows).rows_per_word * road.columns
+    mask, words = (1 << size) - 1, range(last + 1)
+    stay, rest = ~unlike.movers, ~unlike.fixed
+    right, left = percept.right & stay, percept.left & stay
+    held = boards.holding & rest | unlike.potholes
+    seen = (
+        right,
+        left,
+        boards.marked[_WALKERS] & stay,
+        boards.fixed & rest | unlike.barriers | unlike.potholes,
+        (right | left) & held,
+        percept.yielding & stay,
+        percept.attentive & stay,
+    )
+    return [[board >> word * size & mask for word in words] for board in seen]
+
+
+def _place(percept: Percept, limit: int) -> tuple[object, ...]:
+    """Where and when it is decided, as the kernels want it."""
+    road = percept.road
+    layout = Layout.of(road.columns, road.rows)
+    return (
         percept.ego,
         road.columns,
         road.rows,
@@ -269,12 +347,7 @@ def totals_of(
         percept.episode_tick,
         limit,
         _ALL if percept.swept else _ZERO,
-        last,
-        _charges(weights),
-        out,
     )
-    totals = tuple([None if total < 0 else total for total in out.tolist()])
-    return totals, None if lasting < 0 else int(lasting)
 
 
 def _charges(weights: Weights) -> NDArray[np.int64]:

@@ -1,7 +1,7 @@
 """How much work an answer may take before it says what has been found so far.
 
 Work is counted in what decisions look through and never by the clock, so the same question has the same
-answer everywhere. Asked to go on, an answer begins again with more.
+answer wherever the compiled costs are loaded (`sim.search.compiled_costs`); before that less is tried. Asked to go on, an answer begins again with more.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Final
 from sim.config import Config
 from sim.plan import Decision, Measure, traits_of
 from sim.rules.compiled import compiled_rules
-from sim.search.compiled_costs import load_compiled_costs
+from sim.search.compiled_costs import are_loaded, load_compiled_costs
 from sim.search.costs import weights
 from sim.state import SimState
 
@@ -20,6 +20,8 @@ FOR_CAUSES: Final = 1_500
 """Work of looking for causes; a unit is some ten microseconds."""
 FOR_CHANGES: Final = 1_500
 """Work of looking for a change."""
+CELLS_LOOKED_AT: Final = 1_500
+"""Cells that a decision looks through in a unit of work where many are taken at once."""
 RESERVE: Final = 700
 """Work of what is tried last, when all else is spent."""
 MORE: Final = 40
@@ -46,6 +48,11 @@ class Effort(StrEnum):
         return work if self is Effort.USUAL else MORE * work
 
 
+def work_among_many(columns: int, row: int) -> int:
+    """The work of one of many decisions that are taken at once, from a row: cells of the way for every row."""
+    return 1 + columns * row * row // CELLS_LOOKED_AT
+
+
 class WorkSpentError(Exception):
     """The work that an answer may take is done; what was found before holds."""
 
@@ -63,7 +70,7 @@ def work_of(decision: Decision, config: Config) -> int:
     cost = decision.chosen.cost
     if not of_tick or traits_of(decision.planner).quick:
         return _DECISION
-    if decision.measure is Measure.COST and compiled_rules(config):
+    if decision.measure is Measure.COST and are_loaded() and compiled_rules(config):
         return _COMPILED
     if cost is None:
         return _DECISION + of_tick * _NO_WAY * config.rows

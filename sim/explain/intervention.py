@@ -11,17 +11,21 @@ thing can, but no change of the road takes it away.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from sim.actions import Add, Where, WorldAction
 from sim.config import Config
 from sim.decide import announced_before, decide_on, sense
-from sim.explain.effort import WorkSpentError, prepare, work_of
+from sim.explain.effort import WorkSpentError, prepare, work_among_many, work_of
 from sim.explain.factors import factors, is_factor, removal, without
 from sim.explain.facts import Counterfactual, QuestionError
 from sim.perceive import Percept, sensor_named
-from sim.plan import Decision
+from sim.plan import Decision, Measure
+from sim.rules.compiled import compiled_rules
+from sim.search.compiled_costs import Unlike, are_loaded
+from sim.search.costs import weights
+from sim.search.reachability import steps_left
 from sim.session.edits import apply
 from sim.state import SimState
 from sim.types import Cell, Kind, Move, is_ego
@@ -150,6 +154,42 @@ class Intervention:
             hazards={**seen.hazards, **dict.fromkeys(cells, Kind.BARRIER.value)},
         )
         return self._decide(self._with(without(self.state.config, gone)), seen).move
+
+    @property
+    def tried_together(self) -> bool:
+        """Whether many changes can be tried at once (`made_after`): by the planner, the road and the sensor."""
+        config = self.state.config_of(self.ego)
+        return (
+            self.decision.measure is Measure.COST
+            and self.decision.asked is None
+            and self.decision.fault is None
+            and self.faithful
+            and are_loaded()
+            and compiled_rules(config)
+            and not self.percept.egos
+            and len(self.state.egos) == 1
+        )
+
+    def made_after(self, changes: Sequence[tuple[Unlike, Config]]) -> list[Move] | None:
+        """The move after each of these changes of what is seen, with the settings beside it; None: unknown.
+
+        Precondition: `tried_together`.
+        """
+        from sim.batch.one_decision import is_compiled_for, moves_of
+
+        percept, charges = self.percept, [weights(config) for _, config in changes]
+        limit = steps_left(self.state.config, percept.episode_tick)
+        if not all(is_compiled_for(percept, each, limit) for each in set(charges)):
+            return None
+        road = percept.road
+        self._work += len(changes) * work_among_many(road.columns, percept.ego // road.columns)
+        self.count += len(changes)
+        return moves_of(percept, [unlike for unlike, _ in changes], charges, limit)
+
+    @property
+    def work_left(self) -> int | None:
+        """The work that may still be done; None: any."""
+        return None if self._most is None else max(0, self._most - self._work)
 
     def counterfactual(self, names: Iterable[str], move: Move) -> Counterfactual:
         """The smallest intervention that removes these names and leads to `move`.

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from sim.compiled_files import ready_mark
 from sim.forecast import Forecast
 from sim.search.costs import Weights
 from sim.types import MOVES, Move
+from sim.world.grid import Board
 
 
 COMPILED: Final = "one_decision"
@@ -29,6 +30,19 @@ class CompiledCosts:
     """with the cheapest way on, in the order of `Move`; None: no way"""
     lasting: Move | None
     """where no move leads to the goal: the one after which the ego keeps clear longest"""
+
+
+class Unlike(NamedTuple):
+    """How what is seen differs from a percept, as boards."""
+
+    movers: Board = 0
+    """cells of movers that are not there"""
+    fixed: Board = 0
+    """cells of what never moves that is not there"""
+    barriers: Board = 0
+    """cells with a barrier more"""
+    potholes: Board = 0
+    """cells with a pothole more"""
 
 
 _Found = Callable[[Forecast, Weights, int], "tuple[tuple[int | None, ...], int | None] | None"]
@@ -55,6 +69,11 @@ def are_compiled() -> bool:
     """Whether they were compiled on this machine before, so that they are quickly loaded."""
     mark = ready_mark(COMPILED)
     return mark is not None and mark.exists()
+
+
+def are_loaded() -> bool:
+    """Whether the planners that weigh costs answer from them."""
+    return _found is not None
 
 
 def forget_compiled_costs() -> None:
