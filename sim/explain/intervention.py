@@ -77,6 +77,10 @@ class Intervention:
         """The move without this one alone, if that was tried."""
         return self._known.get(("without", frozenset((name,))))
 
+    def remember_without(self, name: str, move: Move) -> None:
+        """Remember the move without this one alone, found elsewhere."""
+        self._known[("without", frozenset((name,)))] = move
+
     def without(self, names: Iterable[str]) -> Move:
         """The move had these things not been detected, or these wishes never been said."""
         key = ("without", frozenset(names))

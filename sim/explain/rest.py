@@ -13,10 +13,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
 
+from sim.explain.edit import Edit
 from sim.explain.effort import WorkSpentError
 from sim.explain.facts import Link
 from sim.explain.intervention import Intervention
 from sim.explain.relevance import having_part, tried_singly
+from sim.explain.tried_together import TogetherTried
 from sim.perceive import Percept
 from sim.plan import Decision, Measure, Option, traits_of
 from sim.types import MOVES
@@ -54,8 +56,9 @@ class Rest:
         parts = having_part(rerun.percept, traits, list(names))
         most = tried_singly(traits)
         further = Flipping(rerun)
-        single = {name for name in parts[:most] if further.flips(name)}
-        single.update(further.among([name for name in parts[most:] if rerun.tried_without(name) is None]))
+        each = len(parts) if tried_each_together(rerun, parts) else most
+        single = {name for name in parts[:each] if further.flips(name)}
+        single.update(further.among([name for name in parts[each:] if rerun.tried_without(name) is None]))
         single.update(name for name in parts if rerun.tried_without(name) not in (None, fact))
         groups: dict[str, tuple[str, ...]] = {
             name: (name,) for name in parts if name in single and name not in known
@@ -74,6 +77,20 @@ class Rest:
                 elif name not in groups and (link := _behind(rerun, name, option, by)) is not None:
                     chain.append(link)
         return Rest(groups, tuple(chain), tuple(further.untried))
+
+
+def tried_each_together(rerun: Intervention, names: Sequence[str]) -> bool:
+    """Take each of these away by itself, all at once; whether that could be done."""
+    if not rerun.tried_together:
+        return False
+    edits = {frozenset((edit,)): edit for edit in (Edit(gone=name) for name in names)}
+    try:
+        made = TogetherTried(rerun).made([(edit,) for edit in edits.values()])
+    except WorkSpentError:
+        return False
+    for key, move in made.items():
+        rerun.remember_without(edits[key].gone, move)
+    return len(made) == len(edits)
 
 
 class Flipping:

@@ -34,7 +34,7 @@ class TogetherTried:
         self._wished: dict[Edit, Config] = {}
         self._unit = work_among_many(percept.road.columns, percept.ego // percept.road.columns)
 
-    def made(self, changes: Iterable[Edits]) -> dict[frozenset[Edit], Move | None]:
+    def made(self, changes: Iterable[Edits]) -> dict[frozenset[Edit], Move]:
         """The move after each of these changes, of those that can be said as boards.
 
         Raises `WorkSpentError` where not all of them may be tried any more.
