@@ -26,6 +26,7 @@ from sim.types import Kind
 
 config: Any = numba.config
 
+
 @contextmanager
 def _cached_in(folder: Path) -> Iterator[None]:
     before = config.CACHE_DIR

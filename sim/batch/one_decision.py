@@ -14,10 +14,9 @@ in the order of `NOW_RIGHT`, the one of movers held by hazards in its place, wit
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from sim.batch.backward_dp import BUFFER, FAR, TICK, _around, _cost_of_way, _sweep, _totals_of_way
 from sim.batch.compiled import compiled, free_steps, max_ticks
@@ -54,6 +53,7 @@ from sim.types import MARKED, MOVES, Kind, Move
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
 _ALL: Final = np.uint64(2**64 - 1)
+WORD_BITS: Final = 64
 _WALKERS: Final = MARKED.index(Kind.PEDESTRIAN)
 MOST_COLUMNS: Final = 64
 """Columns of the widest road that fits into words."""
@@ -146,7 +146,17 @@ def _every_total(scratch, ticks, rolled, cell, last, weights, episode_tick, limi
             total = np.int64(totals[move])
             if total >= FAR:
                 quickest, rolled = _arrives(
-                    now, layers, move, rolled, limit, last, episode_tick, columns, left_edge, right_edge, swept
+                    now,
+                    layers,
+                    move,
+                    rolled,
+                    limit,
+                    last,
+                    episode_tick,
+                    columns,
+                    left_edge,
+                    right_edge,
+                    swept,
                 )
                 if quickest < 0:
                     hopeless[move] = True
@@ -160,7 +170,9 @@ def _every_total(scratch, ticks, rolled, cell, last, weights, episode_tick, limi
 
 
 @compiled
-def _moves(seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, moves):
+def _moves(
+    seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, moves
+):
     """Write the move that is made where each of these is seen (seen: ways to see, 7, words), by its weights."""
     words = seen.shape[2]
     now = np.empty((BOARDS, words), np.uint64)
@@ -207,7 +219,9 @@ def _moves(seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit
 
 
 @compiled
-def _decided(seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, out):
+def _decided(
+    seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, out
+):
     """Write what each move costs in all (−1: no way); returns the move after which one lasts longest.
 
     Returns −1 where a way leads to the goal.
@@ -248,7 +262,7 @@ def _decided(seen, cell, columns, rows, left_edge, right_edge, episode_tick, lim
 def make_ready() -> None:
     """Compile this, or load what was compiled before."""
     seen = np.zeros((VEHICLE, 1), np.uint64)
-    charges, out = _charges(Weights(60, 12, 9, 4, 2, 24, 1, 40)), np.empty(6, np.int64)
+    charges, out = np.array((60, 12, 9, 4, 2, 24, 1), np.int64), np.empty(6, np.int64)
     place = (1, 1, 2, _ONE, _ONE, 0, 2, _ALL, 0)
     _decided(seen, *place, charges, out)
     _moves(seen[None], *place, charges[None], np.empty(1, np.uint8))
@@ -278,31 +292,32 @@ def is_compiled_for(percept: Percept, weights: Weights, limit: int) -> bool:
     )
 
 
-def totals_of(
-    forecast: Forecast, weights: Weights, limit: int
-) -> tuple[tuple[int | None, ...], int | None]:
+def totals_of(forecast: Forecast, weights: Weights, limit: int) -> tuple[tuple[int | None, ...], int | None]:
     """What each move costs in all (None: no way), and the move after which one lasts longest where none has.
 
     `limit`: steps that are left, in ticks. Precondition: `is_compiled_for`.
     """
     percept = forecast.percept
     last = _last_word(percept, weights.buffer)
-    seen = np.array(_words(percept, Unlike(), last), np.uint64)
+    seen = np.frombuffer(bytearray(_words(percept, Unlike(), last)), np.uint64).reshape(VEHICLE, last + 1)
     out = np.empty(6, np.int64)
-    lasting = _decided(seen, *_place(percept, limit), last, _charges(weights), out)
+    lasting = _decided(seen, *_place(percept, limit), last, np.array(_row(weights), np.int64), out)
     totals = tuple([None if total < 0 else total for total in out.tolist()])
     return totals, None if lasting < 0 else int(lasting)
 
 
-def moves_of(percept: Percept, unlike: Sequence[Unlike], weights: Sequence[Weights], limit: int) -> list[Move]:
+def moves_of(
+    percept: Percept, unlike: Sequence[Unlike], weights: Sequence[Weights], limit: int
+) -> list[Move]:
     """The move that is made where each of these things is seen otherwise, by the charges beside it.
 
     Precondition: `is_compiled_for` with each of the charges, and no ways to see less than one.
     """
     last = _last_word(percept, max(each.buffer for each in weights))
-    seen = np.array([_words(percept, each, last) for each in unlike], np.uint64)
+    words = b"".join([_words(percept, each, last) for each in unlike])
+    seen = np.frombuffer(bytearray(words), np.uint64).reshape(len(unlike), VEHICLE, last + 1)
     moves = np.empty(len(unlike), np.uint8)
-    charges = np.array([_charges(each) for each in weights])
+    charges = np.array([_row(each) for each in weights], np.int64)
     _moves(seen, *_place(percept, limit), last, charges, moves)
     return [MOVES[move] for move in moves.tolist()]
 
@@ -314,11 +329,10 @@ def _last_word(percept: Percept, buffer: int) -> int:
     return row // Layout.of(road.columns, road.rows).rows_per_word
 
 
-def _words(percept: Percept, unlike: Unlike, last: int) -> list[list[int]]:
+def _words(percept: Percept, unlike: Unlike, last: int) -> bytes:
     """What is seen, in the order of `NOW_RIGHT` without the vehicle: the words up to the last."""
     road, boards = percept.road, percept.boards
     size = Layout.of(road.columns, road.rows).rows_per_word * road.columns
-    mask, words = (1 << size) - 1, range(last + 1)
     stay, rest = ~unlike.movers, ~unlike.fixed
     right, left = percept.right & stay, percept.left & stay
     held = boards.holding & rest | unlike.potholes
@@ -331,7 +345,11 @@ def _words(percept: Percept, unlike: Unlike, last: int) -> list[list[int]]:
         percept.yielding & stay,
         percept.attentive & stay,
     )
-    return [[board >> word * size & mask for word in words] for board in seen]
+    if size == WORD_BITS:
+        length, near = 8 * (last + 1), (1 << WORD_BITS * (last + 1)) - 1
+        return b"".join([(board & near).to_bytes(length, "little") for board in seen])
+    words, mask = range(last + 1), (1 << size) - 1
+    return b"".join([(board >> word * size & mask).to_bytes(8, "little") for board in seen for word in words])
 
 
 def _place(percept: Percept, limit: int) -> tuple[object, ...]:
@@ -350,17 +368,14 @@ def _place(percept: Percept, limit: int) -> tuple[object, ...]:
     )
 
 
-def _charges(weights: Weights) -> NDArray[np.int64]:
-    return np.array(
-        (
-            weights.tick,
-            weights.sideways,
-            weights.diagonal,
-            weights.stay,
-            weights.fixed,
-            weights.mover,
-            weights.buffer,
-        ),
-        np.int64,
+def _row(weights: Weights) -> tuple[int, ...]:
+    """The charges, in the order of `TICK`."""
+    return (
+        weights.tick,
+        weights.sideways,
+        weights.diagonal,
+        weights.stay,
+        weights.fixed,
+        weights.mover,
+        weights.buffer,
     )
-

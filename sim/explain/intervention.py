@@ -17,15 +17,12 @@ from dataclasses import replace
 from sim.actions import Add, Where, WorldAction
 from sim.config import Config
 from sim.decide import announced_before, decide_on, sense
-from sim.explain.effort import WorkSpentError, prepare, work_among_many, work_of
+from sim.explain.effort import WorkSpentError, prepare, work_of
 from sim.explain.factors import factors, is_factor, removal, without
 from sim.explain.facts import Counterfactual, QuestionError
+from sim.explain.quick_moves import QuickMoves, SeenOtherwise
 from sim.perceive import Percept, sensor_named
-from sim.plan import Decision, Measure
-from sim.rules.compiled import compiled_rules
-from sim.search.compiled_costs import Unlike, are_loaded
-from sim.search.costs import weights
-from sim.search.reachability import steps_left
+from sim.plan import Decision
 from sim.session.edits import apply
 from sim.state import SimState
 from sim.types import Cell, Kind, Move, is_ego
@@ -64,6 +61,10 @@ class Intervention:
         self.faithful = not announced and sensor_named(state.config.sensor).faithful
         """whether not to be seen is the same as not to be there: for it and for who decides before it"""
         self.factors = factors(state.config_of(self.ego))
+        self.quick: QuickMoves | None = None
+        """what finds moves many at once, where that can be"""
+        if self.faithful and QuickMoves.answers(state, decision, self.percept):
+            self.quick = QuickMoves(state.config_of(self.ego), self.percept, decision.move)
         self.count = 0
         self._work, self._most = 0, most
         self._known: dict[tuple[str, frozenset[str]], Move] = {}
@@ -85,13 +86,20 @@ class Intervention:
         """The move had these things not been detected, or these wishes never been said."""
         key = ("without", frozenset(names))
         if key not in self._known:
-            self._known[key] = self.decision_without(key[1]).move
+            otherwise = None if self.quick is None else self.quick.without(key[1])
+            if otherwise is None:
+                self._known[key] = self.decision_without(key[1]).move
+            else:
+                (self._known[key],) = self.made_after([otherwise])
         return self._known[key]
 
     def keeping(self, names: Iterable[str]) -> Move:
         """The move had nothing but these been detected."""
         key = ("keeping", frozenset(names))
         if key not in self._known:
+            if self.quick is not None:
+                (self._known[key],) = self.made_after([self.quick.keeping(key[1])])
+                return self._known[key]
             gone = [name for name in self.factors if name not in key[1]]
             config = without(self.state.config, gone) if gone else self.state.config
             self._known[key] = self._decide(self._with(config), self.percept.keeping(_things(key[1]))).move
@@ -159,41 +167,18 @@ class Intervention:
         )
         return self._decide(self._with(without(self.state.config, gone)), seen).move
 
-    @property
-    def tried_together(self) -> bool:
-        """Whether many changes can be tried at once (`made_after`): by the planner, the road and the sensor."""
-        config = self.state.config_of(self.ego)
-        return (
-            self.decision.measure is Measure.COST
-            and self.decision.asked is None
-            and self.decision.fault is None
-            and self.faithful
-            and are_loaded()
-            and compiled_rules(config)
-            and not self.percept.egos
-            and len(self.state.egos) == 1
-        )
+    def made_after(self, changes: Sequence[SeenOtherwise]) -> list[Move]:
+        """The move after each of these changes of what is seen. Precondition: `quick`.
 
-    def made_after(self, changes: Sequence[tuple[Unlike, Config]]) -> list[Move] | None:
-        """The move after each of these changes of what is seen, with the settings beside it; None: unknown.
-
-        Precondition: `tried_together`.
+        Raises `WorkSpentError` where there is no work left for all of them.
         """
-        from sim.batch.one_decision import is_compiled_for, moves_of
-
-        percept, charges = self.percept, [weights(config) for _, config in changes]
-        limit = steps_left(self.state.config, percept.episode_tick)
-        if not all(is_compiled_for(percept, each, limit) for each in set(charges)):
-            return None
-        road = percept.road
-        self._work += len(changes) * work_among_many(road.columns, percept.ego // road.columns)
+        assert self.quick is not None
+        work = len(changes) * self.quick.work
+        if self._most is not None and self._work + work > self._most + self.quick.work:
+            raise WorkSpentError
+        self._work += work
         self.count += len(changes)
-        return moves_of(percept, [unlike for unlike, _ in changes], charges, limit)
-
-    @property
-    def work_left(self) -> int | None:
-        """The work that may still be done; None: any."""
-        return None if self._most is None else max(0, self._most - self._work)
+        return self.quick.moves(changes)
 
     def counterfactual(self, names: Iterable[str], move: Move) -> Counterfactual:
         """The smallest intervention that removes these names and leads to `move`.

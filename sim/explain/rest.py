@@ -13,12 +13,10 @@ from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
 
-from sim.explain.edit import Edit
 from sim.explain.effort import WorkSpentError
 from sim.explain.facts import Link
 from sim.explain.intervention import Intervention
 from sim.explain.relevance import having_part, tried_singly
-from sim.explain.tried_together import TogetherTried
 from sim.perceive import Percept
 from sim.plan import Decision, Measure, Option, traits_of
 from sim.types import MOVES
@@ -81,16 +79,17 @@ class Rest:
 
 def tried_each_together(rerun: Intervention, names: Sequence[str]) -> bool:
     """Take each of these away by itself, all at once; whether that could be done."""
-    if not rerun.tried_together:
+    if rerun.quick is None:
         return False
-    edits = {frozenset((edit,)): edit for edit in (Edit(gone=name) for name in names)}
+    otherwise = {name: rerun.quick.without((name,)) for name in names if rerun.tried_without(name) is None}
+    known = {name: each for name, each in otherwise.items() if each is not None}
     try:
-        made = TogetherTried(rerun).made([(edit,) for edit in edits.values()])
+        moves = rerun.made_after([*known.values()])
     except WorkSpentError:
         return False
-    for key, move in made.items():
-        rerun.remember_without(edits[key].gone, move)
-    return len(made) == len(edits)
+    for name, move in zip(known, moves, strict=True):
+        rerun.remember_without(name, move)
+    return len(known) == len(otherwise)
 
 
 class Flipping:

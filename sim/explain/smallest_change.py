@@ -61,7 +61,7 @@ class ChangeSearch:
         self._most = effort.of(MOST_TRIES)
         self._edits = list(self._single_edits(having_part(rerun.percept, traits, list(names))))
         self._known: dict[frozenset[Edit], Move | None] = {}
-        self._together = TogetherTried(rerun) if rerun.tried_together else None
+        self._together = None if rerun.quick is None else TogetherTried(rerun, rerun.quick)
 
     @property
     def tried(self) -> int:
@@ -126,9 +126,7 @@ class ChangeSearch:
     def _of_size(self, size: int) -> Iterator[Edits | None]:
         """The changes of so many edits, the most telling first; None where no more may be tried."""
         changes = (
-            edits
-            for edits in combinations(self._edits, size)
-            if sum(edit.of_wishes for edit in edits) <= 1
+            edits for edits in combinations(self._edits, size) if sum(edit.of_wishes for edit in edits) <= 1
         )
         if self._together is None:
             for edits in changes:

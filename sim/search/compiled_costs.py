@@ -7,16 +7,16 @@ that weigh costs answer from it. The answers are the same ones.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 from sim.compiled_files import ready_mark
 from sim.forecast import Forecast
+from sim.perceive import Percept
 from sim.search.costs import Weights
 from sim.types import MOVES, Move
 from sim.world.grid import Board
-
 
 COMPILED: Final = "one_decision"
 """Under which it is kept that they were compiled (`sim.compiled_files`)."""
@@ -94,6 +94,18 @@ def compiled_costs(forecast: Forecast, weights: Weights, limit: int) -> Compiled
         return None
     totals, lasting = found
     return CompiledCosts(totals, None if lasting is None else MOVES[lasting])
+
+
+def compiled_moves(
+    percept: Percept, unlike: Sequence[Unlike], weights: Sequence[Weights], limit: int
+) -> list[Move]:
+    """The move that is made where each of these things is seen otherwise, by the charges beside it.
+
+    Precondition: `are_loaded`, and `compiled_costs` answers for what is seen.
+    """
+    from sim.batch.one_decision import moves_of
+
+    return moves_of(percept, unlike, weights, limit)
 
 
 if __name__ == "__main__":  # in a process of its own, so that nobody waits for a compiler
