@@ -1,18 +1,19 @@
 """One decision by cost in compiled words: what every move costs in all, from what one vehicle sees.
 
-Structure: as `sim.batch.backward_dp`, whose sweep it uses; but where that stops at the cheapest move, here the
-horizon grows until the cost of every move is proved. A way of more ticks than were swept costs at least a tick
-for each, so a total that is no more than that is exact, and any other one tells how far the sweep must go.
-A move whose cells all run out leads nowhere, which the sets of cells show.
+Structure: as `sim.batch.backward_dp`, whose sweep it uses; but where that stops at the cheapest move, here
+the horizon grows until the cost of every move is proved. A way of more ticks than were swept costs at least a
+tick for each, so a total that is no more than that is exact, and any other one tells how far the sweep must
+go. A move whose cells all run out leads nowhere, which the sets of cells show.
 Guarantee: the totals of `sim.search.backward_dp.totals_by_move` and the move of
-`sim.search.reachability.longest_lasting`, for what `decided` accepts.
+`sim.search.reachability.longest_lasting`, for what `is_compiled_for` accepts.
 
-Array arguments, besides those of `sim.batch.backward_dp`: `seen` (7, words; uint64): the boards of the percept
-in the order of `NOW_RIGHT`, the one of movers held by hazards in its place, without the vehicle.
+Array arguments, besides those of `sim.batch.backward_dp`: `seen` (7, words; uint64) holds the boards of the
+percept in the order of `NOW_RIGHT`, without the vehicle.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from typing import Final
 
@@ -119,10 +120,10 @@ def _arrives(now, layers, move, rolled, limit, last, episode_tick, columns, left
 
 
 @compiled
-def _every_total(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept, first_only):
+def _every_total(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept, stay_only):
     """Write the totals of the moves now, each of them proved; `ticks`: those of a quickest way.
 
-    With `first_only` those of staying alone are asked for. `scratch`, `size`: as in `sim.batch.backward_dp`.
+    With `stay_only` that of staying alone is asked for. `scratch`, `size`: as in `sim.batch.backward_dp`.
     """
     now, layers, near = scratch[0], scratch[1], scratch[2]
     totals = scratch[5]
@@ -137,7 +138,7 @@ def _every_total(scratch, ticks, rolled, cell, last, weights, episode_tick, limi
             roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, False)
         rolled = max(rolled, horizon)
         _sweep(scratch, horizon, cell, last, weights, size)
-        if first_only or horizon >= limit:
+        if stay_only or horizon >= limit:
             return
         needed = horizon
         for move in range(6):
@@ -173,7 +174,10 @@ def _every_total(scratch, ticks, rolled, cell, last, weights, episode_tick, limi
 def _moves(
     seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, moves
 ):
-    """Write the move that is made where each of these is seen (seen: ways to see, 7, words), by its weights."""
+    """Write the move that is made where each of these is seen (`seen`: ways to see, 7, words).
+
+    Each is weighed by its own row of `weights`.
+    """
     words = seen.shape[2]
     now = np.empty((BOARDS, words), np.uint64)
     layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)

@@ -1,7 +1,8 @@
 """How much work an answer may take before it says what has been found so far.
 
 Work is counted in what decisions look through and never by the clock, so the same question has the same
-answer wherever the compiled costs are loaded (`sim.search.compiled_costs`); before that less is tried. Asked to go on, an answer begins again with more.
+answer wherever the compiled costs are loaded (`sim.search.compiled_costs`); before that, less is tried. Asked
+to go on, an answer begins again with more.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ class Effort(StrEnum):
 
 
 def work_among_many(columns: int, row: int) -> int:
-    """The work of one of many decisions that are taken at once, from a row: cells of the way for every row."""
+    """The work of one of many decisions that are taken at once, from a row."""
     return 1 + columns * row * row // CELLS_LOOKED_AT
 
 

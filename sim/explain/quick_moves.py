@@ -1,7 +1,7 @@
 """The moves of one decision where other things are seen, many at once, by compiled words.
 
-What is seen otherwise is said as boards, with the settings beside it. It is the move that the planner makes of
-such a percept, which the tests compare; where that cannot be had, `QuickMoves.answers` says so.
+What is seen otherwise is said as boards, with the settings beside it. It is the move that the planner makes
+of such a percept, which the tests compare; where that cannot be had, `QuickMoves.answers` says so.
 """
 
 from __future__ import annotations

@@ -20,8 +20,8 @@ def decide_by_cost(
 ) -> Decision:
     """The cheapest move, ties in the order of `Move`; with no way on, the move after which one lasts longest.
 
-    `totals` are in the order of `Move`; None where the step is not free or no way leads on. `lasting`: the move
-    after which one lasts longest, where it is known already.
+    `totals` are in the order of `Move`; None where the step is not free or no way leads on. `lasting`: the
+    move after which one lasts longest, where it is known already.
     """
     options = []
     for move, total in zip(MOVES, totals, strict=True):

@@ -1,4 +1,4 @@
-"""The costs of every move by compiled words, once they have been loaded: what the searches find, many times faster.
+"""The costs of every move by compiled words, once they are loaded: what the searches find, much faster.
 
 A session that nobody asks about needs none of it. An explanation takes hundreds of decisions, and so it has
 this loaded first (`load_compiled_costs`), if it was ever compiled on this machine; from then on the planners
