@@ -58,7 +58,7 @@ def load_compiled_costs(*, compile_now: bool = False) -> bool:
     if _found is None:
         if not (compile_now or are_compiled()):
             return False
-        from sim.batch.one_decision import make_ready, totals_where_compiled
+        from sim.batch.percept_words import make_ready, totals_where_compiled
 
         make_ready()
         _found = totals_where_compiled
@@ -103,7 +103,7 @@ def compiled_moves(
 
     Precondition: `are_loaded`, and `compiled_costs` answers for what is seen.
     """
-    from sim.batch.one_decision import moves_of
+    from sim.batch.percept_words import moves_of
 
     return moves_of(percept, unlike, weights, limit)
 
