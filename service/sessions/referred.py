@@ -45,7 +45,10 @@ def explained(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> Ask | N
     if ask.about in _EXPLAIN and ask.change is None and answer.get("evidence") is not None:
         which = answer.get("mover", {}).get("id")
         named = ask if which is None else replace(ask, which=Which(id=which))
-        return replace(named, tick=answer["tick"], ticks=None)
+        try:
+            return replace(named, tick=answer["tick"], ticks=None)
+        except ValueError:
+            return named  # one about the road as a whole names no tick
     if ask.about == "history" and ask.what in ("riskiest", "similar", "closest_call"):
         tick = answer.get("moment")
         call = answer.get("closest_call")

@@ -957,6 +957,8 @@ export interface ProblemDocument {
   pending?: PendingQuestion | null;
   /** The session's sequence number, if it was changed meanwhile. */
   sequence?: number | null;
+  /** How an evaluation stands that has no report. */
+  state?: "queued" | "running" | "done" | "failed" | "cancelled" | null;
 }
 
 /** Why a `command` or `actions` was refused, under the id that was sent with it. */
