@@ -19,14 +19,14 @@ from sim.fast_replace import fast_constructor
 from sim.perceive.bayes_filter import expected_motion
 from sim.perceive.belief import LAYERS, RIGHT, GridBelief
 from sim.perceive.look import NUMBER
-from sim.perceive.look_tables import KINDS_SEEN, LEVELS, Setup, setup
+from sim.perceive.look_tables import KINDS_SEEN, Setup, setup
 from sim.perceive.parameters import SensorSpec
 from sim.perceive.percept import Percept
 from sim.rules.traffic import shift_table
 from sim.rules.traffic_cache import cached_reactions
-from sim.types import Kind, ego_id, kind_of, phantom_id
+from sim.types import HAZARDS, Kind, ego_id, kind_of, phantom_id
 from sim.world import World
-from sim.world.boards import BOARDED, Boards
+from sim.world.boards import Boards
 from sim.world.grid import Board, Road
 
 WORTHWHILE: Final = 100
@@ -63,6 +63,7 @@ _percept = fast_constructor(
     "likelihoods",
     "doubtful",
 )
+_boards = fast_constructor(Boards, "hazards", "marked", "fixed", "holding", "others")
 _belief = fast_constructor(
     GridBelief,
     "layers",
@@ -133,13 +134,15 @@ def sense_tick(
     boards = [int.from_bytes(marked[at : at + size], "little") for at in range(0, len(marked), size)]
     fixed_count, all_count, head = shown[0], shown[0] + shown[1], _kernel.SHOWN_HEAD
     if shown[_kernel.TIES]:
-        likelihoods = [round(each, _ROUND) for each in likelihoods[:all_count]]
+        likelihoods = [round(each, _ROUND) for each in likelihoods]
     namer = _Namer(shown, head + 3 * all_count, names, belief.phantoms if belief is not None else 0)
     middle = head + 3 * fixed_count
     hazards = namer.named(head, middle, dict(belief.hazards) if belief is not None else {})
     movers = namer.named(middle, head + 3 * all_count, followed[2])
     right, left = boards[0], boards[1]
-    seen = Boards.in_order(boards[2 : 2 + len(BOARDED)])
+    first, doubts = _kernel.SEEN_BOARDS, _kernel.SEEN_DOUBTS
+    moving = first + len(HAZARDS)
+    seen = _boards(tuple(boards[first:moving]), tuple(boards[moving:doubts]), *boards[2:first])
     reactions, driven = cached_reactions(world, config), world.driven
     percept = _percept(
         road,
@@ -159,8 +162,8 @@ def sense_tick(
         config.dynamics,
         config.behaviour,
         (),
-        dict(zip([*hazards.values(), *movers.values()], likelihoods, strict=False)),
-        tuple(boards[2 + len(BOARDED) :]),
+        dict(zip([*hazards.values(), *movers.values()], likelihoods, strict=True)),
+        tuple(boards[doubts:]),
     )
     after = _belief(
         layers,
@@ -211,7 +214,9 @@ class _Namer:
         for place, cell in enumerate(cells):
             if not found[place]:
                 kind = shown[first + 3 * place + 1]
-                found[place] = self._name_of(_KINDS[kind], (known.get(cell), reported.get((kind, cell))), used)
+                found[place] = self._name_of(
+                    _KINDS[kind], (known.get(cell), reported.get((kind, cell))), used
+                )
                 used.add(found[place])
         return dict(zip(cells, found, strict=True))
 
@@ -293,10 +298,10 @@ def _call(
     before = used.prior if belief is None else belief.layers
     most = 2 * cells
     layers = np.empty(LAYERS * cells, np.int16)
-    shown = np.zeros(_kernel.SHOWN_HEAD + 3 * (most + devices * (things + KINDS_SEEN)), np.int64)
+    shown = np.empty(_kernel.SHOWN_HEAD + 3 * (most + devices * (things + KINDS_SEEN)), np.int64)
     likelihoods = np.empty(most)
-    marked = np.zeros((2 + len(BOARDED) + len(LEVELS)) * size, np.uint8)
-    _kernel.sense_tick(
+    marked = np.empty(_kernel.SEEN * size, np.uint8)
+    end = _kernel.sense_tick(
         np.frombuffer(numbers, np.int64),
         np.frombuffer(boards, np.uint8),
         np.frombuffer(before, np.int16),
@@ -309,6 +314,5 @@ def _call(
         likelihoods,
         marked,
     )
-    count = int(shown[0] + shown[1])
-    end = _kernel.SHOWN_HEAD + 3 * (count + int(shown[_kernel.REPORTS]))
-    return shown[:end].tolist(), marked.tobytes(), layers.tobytes(), likelihoods[:count].tolist()
+    found = shown[:end].tolist()
+    return found, marked.tobytes(), layers.tobytes(), likelihoods[: found[0] + found[1]].tolist()

@@ -39,7 +39,9 @@ from sim.perceive.look_tables import (
 from sim.perceive.occlusion import UNIT
 from sim.types import HAZARDS
 
-KEY, EPISODE, TICK, EGO, HERE, COLUMNS, ROWS, REMEMBERED, TICK_BEFORE, THINGS, FIXED_THINGS, AVS, FOLLOWED = range(13)
+KEY, EPISODE, TICK, EGO, HERE, COLUMNS, ROWS, REMEMBERED, TICK_BEFORE, THINGS, FIXED_THINGS, AVS, FOLLOWED = (
+    range(13)
+)
 HEAD: Final = 13
 """Places in `numbers`. `REMEMBERED`: whether there is a belief from the tick before; `THINGS`, `FIXED_THINGS`,
 `AVS`, `FOLLOWED`: how many there are."""
@@ -49,6 +51,11 @@ SHOWN_FIXED, SHOWN_MOVERS, REPORTS, TIES = range(4)
 SHOWN_HEAD: Final = 4
 """Places in `shown`: how many there are, and whether a likelihood is too near a tie to be rounded here."""
 TRIPLE: Final = 3
+
+SEEN_RIGHT, SEEN_LEFT, SEEN_FIXED, SEEN_HOLDING, SEEN_OTHERS, SEEN_BOARDS = range(6)
+SEEN_DOUBTS: Final = SEEN_BOARDS + int(BOARD_OF.max()) + 1
+SEEN: Final = SEEN_DOUBTS + len(LEVELS)
+"""Places in `marked`: movers by heading, the unions of `Boards`, the kinds with a board, the levels of doubt."""
 
 _FIXED_KINDS: Final = len(HAZARDS)
 _MOVING_KINDS: Final = KINDS_SEEN - _FIXED_KINDS
@@ -248,16 +255,15 @@ def _miss(numbers, layers, tables, hidden, device):
     """Make what was seen without a report less likely."""
     columns, here = numbers[COLUMNS], numbers[HERE]
     cells, row, column = columns * numbers[ROWS], here // columns, here % columns
-    reach = tables.devices[device, 1]
-    for ahead in range(min(reach, row) + 1):
-        for there in range(columns):
-            place = there - column + columns - 1
-            if hidden[ahead, there] or not tables.seen[device, ahead, place]:
-                continue
-            at = (row - ahead) * columns + there
-            for layer in range(LAYERS):
-                value = layers[layer * cells + at] + tables.miss[device, layer, ahead, place]
-                layers[layer * cells + at] = max(-LIMIT, min(LIMIT, value))
+    left = columns - 1 - column
+    for layer in range(LAYERS):
+        for ahead in range(min(tables.devices[device, 1], row) + 1):
+            own = layers[layer * cells + (row - ahead) * columns :][:columns]
+            less, covered = tables.miss[device, layer, ahead, left:], hidden[ahead]
+            for there in range(columns):
+                # Where nothing can be detected, `miss` is 0. No branches, so that a compiler takes many at once.
+                value = own[there] + np.int16(less[there] * np.int16(1 - covered[there]))
+                own[there] = max(-LIMIT, min(LIMIT, value))
 
 
 @compiled
@@ -344,18 +350,28 @@ def _show_cell(numbers, layers, threshold, shown, likelihoods, marked, cell, fix
             best, likely, right = kind, chance, heads_right
     if best < 0 or (not fixed and fixed_kinds[cell] >= 0 and not HOLDS[fixed_kinds[cell]]):
         return 0
-    bit = np.uint8(1 << (cell & 7))
     if fixed:
         fixed_kinds[cell] = best
+        _mark(marked, SEEN_FIXED, size, cell)
+        if HOLDS[best]:
+            _mark(marked, SEEN_HOLDING, size, cell)
     else:
-        marked[(0 if right else 1) * size + (cell >> 3)] |= bit
+        _mark(marked, SEEN_RIGHT if right else SEEN_LEFT, size, cell)
+        if BOARD_OF[best] >= 0:
+            _mark(marked, SEEN_OTHERS, size, cell)
     if BOARD_OF[best] >= 0:
-        marked[(2 + BOARD_OF[best]) * size + (cell >> 3)] |= bit
+        _mark(marked, SEEN_BOARDS + BOARD_OF[best], size, cell)
     place = shown[SHOWN_FIXED] + shown[SHOWN_MOVERS]
     at = SHOWN_HEAD + TRIPLE * place
     shown[at], shown[at + 1], shown[at + 2] = cell, best, _thing_at(numbers, cell, best, fixed)
     likelihoods[place] = _likelihood(shown, likely)
     return 1
+
+
+@compiled
+def _mark(marked, which, size, cell):
+    """Put a cell on one of the boards of what is shown."""
+    marked[which * size + (cell >> 3)] |= np.uint8(1 << (cell & 7))
 
 
 @compiled
@@ -375,24 +391,37 @@ def _show(numbers, layers, threshold, shown, likelihoods, marked):
     cells = columns * numbers[ROWS]
     size, ahead = (cells + 7) // 8, (numbers[HERE] // columns + 1) * columns
     fixed_kinds = np.full(ahead, -1, np.int64)
+    # Most cells hold nothing, which whole numbers say quickly: chances grow with log odds.
+    least = np.searchsorted(CHANCES, threshold) - LIMIT
+    least_mover = np.searchsorted(CHANCES, threshold / 2) - LIMIT - 1
+    least_doubt = np.searchsorted(CHANCES, LEVELS[0]) - LIMIT
+    likeliest = _likeliest(layers, cells, ahead, 0, FIXED)
+    moving = _likeliest(layers, cells, ahead, FIXED, LAYERS)
     for cell in range(ahead):
-        shown[SHOWN_FIXED] += _show_cell(
-            numbers, layers, threshold, shown, likelihoods, marked, cell, fixed_kinds, True
-        )
+        if likeliest[cell] >= least:
+            shown[SHOWN_FIXED] += _show_cell(
+                numbers, layers, threshold, shown, likelihoods, marked, cell, fixed_kinds, True
+            )
     for cell in range(ahead):
-        shown[SHOWN_MOVERS] += _show_cell(
-            numbers, layers, threshold, shown, likelihoods, marked, cell, fixed_kinds, False
-        )
-    doubts = (2 + np.max(BOARD_OF) + 1) * size
+        if moving[cell] >= least_mover:
+            shown[SHOWN_MOVERS] += _show_cell(
+                numbers, layers, threshold, shown, likelihoods, marked, cell, fixed_kinds, False
+            )
     for cell in range(ahead):
-        if fixed_kinds[cell] >= 0:
-            continue
-        value = layers[cell]
-        for layer in range(1, FIXED):
-            value = max(value, layers[layer * cells + cell])
-        for level in range(_LEVELS):
-            if CHANCES[value + LIMIT] >= LEVELS[level]:
-                marked[doubts + level * size + (cell >> 3)] |= np.uint8(1 << (cell & 7))
+        if likeliest[cell] >= least_doubt and fixed_kinds[cell] < 0:
+            for level in range(_LEVELS):
+                if CHANCES[likeliest[cell] + LIMIT] >= LEVELS[level]:
+                    _mark(marked, SEEN_DOUBTS + level, size, cell)
+
+
+@compiled
+def _likeliest(layers, cells, ahead, first, last):
+    """The greatest log odds of some layers in each of the first `ahead` cells."""
+    found = layers[first * cells : first * cells + ahead].copy()
+    for layer in range(first + 1, last):
+        for cell in range(ahead):
+            found[cell] = max(found[cell], layers[layer * cells + cell])
+    return found
 
 
 @compiled
@@ -400,9 +429,11 @@ def sense_tick(numbers, boards, before, threshold, mixing, least, tables, layers
     """One tick. Written to: `layers` (the belief after it) and what is shown.
 
     `before`: the belief before; `shown` (int64): the head, then cell, kind and thing of each, then kind, cell
-    and thing of each report; `likelihoods` of what is shown; `marked` (uint8): the boards of movers heading
-    right and left, of the kinds with a board, and of the levels of doubt. All are zero at first.
+    and thing of each report; `likelihoods` of what is shown; `marked` (uint8): boards, `SEEN_RIGHT` to
+    `SEEN`. Returns how much of `shown` is used.
     """
+    shown[:SHOWN_HEAD] = 0
+    marked[:] = 0
     columns = numbers[COLUMNS]
     cells = columns * numbers[ROWS]
     layers[:] = before
@@ -430,3 +461,4 @@ def sense_tick(numbers, boards, before, threshold, mixing, least, tables, layers
     for report in range(first):
         shown[at], shown[at + 1], shown[at + 2] = reports[report, 0], reports[report, 1], reports[report, 3]
         at += TRIPLE
+    return at

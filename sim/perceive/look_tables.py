@@ -40,7 +40,10 @@ LAYER_OF: Final = np.array([LAYER[kind] if kind in LAYER else RIGHT[kind] for ki
 HOLDS: Final = np.array([KINDS[kind].holds_movers for kind in NUMBER], np.uint8)
 """By number of a kind: whether a mover may be in the same cell."""
 BOARD_OF: Final = np.array(
-    [HAZARDS.index(k) if k in HAZARDS else len(HAZARDS) + MARKED.index(k) if k in MARKED else -1 for k in NUMBER],
+    [
+        HAZARDS.index(k) if k in HAZARDS else len(HAZARDS) + MARKED.index(k) if k in MARKED else -1
+        for k in NUMBER
+    ],
     np.int64,
 )
 """By number of a kind: the place of its board in `Boards.by_kind`, −1 where it has none."""
@@ -163,4 +166,4 @@ def _fill(tables: SuiteTables, device: int, model: SensorModel) -> None:
 
 
 assert [NUMBER[kind] - _FIRST_MOVER for kind in MOVERS] == list(range(len(MOVERS)))
-assert -32_768 <= -2 * LIMIT
+assert -2 * LIMIT >= -32_768
