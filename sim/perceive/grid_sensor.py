@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from sim.config import Config
-from sim.perceive import fast_look
 from sim.perceive.bayes_filter import predict_layers, update_layers
 from sim.perceive.belief import FIXED, LAYER, LAYERS, RIGHT, GridBelief, Layers, packed, prior, probabilities
+from sim.perceive.kernel import run as kernel
 from sim.perceive.log_odds import LIMIT
 from sim.perceive.look import Look, look
 from sim.perceive.parameters import SensorSpec
@@ -212,9 +212,9 @@ def perceive_grid(
 ) -> tuple[Percept, Belief]:
     """What a suite of devices shows; with `remembers` false, of this tick's looks alone."""
     before = belief if remembers else NO_BELIEF
-    if fast_look.ready():
+    if kernel.ready():
         known = before if isinstance(before, GridBelief) else None
-        percept, after = fast_look.sense_tick(world, config, ego, known, suite)
+        percept, after = kernel.sense_tick(world, config, ego, known, suite)
         return percept, after if remembers else NO_BELIEF
     percept, after = show(world, config, ego, before, gather(world, config, ego, before, suite))
     return percept, after if remembers else NO_BELIEF

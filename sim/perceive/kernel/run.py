@@ -1,12 +1,13 @@
 """The looks of a tick by the compiled kernel: arguments packed, results unpacked.
 
-The results are those of `sim.perceive.grid_sensor`, to the last bit. Compiling takes seconds, and loading what
-was compiled before a good half, so a process that has looked `WORTHWHILE` times loads the kernel in a thread of
-its own; until then, and where that is not worth while, `grid_sensor` answers. `load` does it at once.
+The results are those of `sim.perceive.grid_sensor`, to the last bit. Compiling takes seconds, once on a
+machine, and loading about one, so a process that has looked `WORTHWHILE` times loads the kernel in a thread
+of its own. Until it is there `grid_sensor` answers. `load` loads it at once.
 """
 
 from __future__ import annotations
 
+import sys
 from array import array
 from collections.abc import Mapping
 from threading import Lock, Thread
@@ -18,13 +19,15 @@ from sim.config import Config
 from sim.fast_replace import fast_constructor
 from sim.perceive.bayes_filter import expected_motion
 from sim.perceive.belief import LAYERS, RIGHT, GridBelief
+from sim.perceive.kernel.names import Namer
+from sim.perceive.kernel.places import SEEN, SEEN_BOARDS, SEEN_DOUBTS, SHOWN_HEAD, TIES, TRIPLE
+from sim.perceive.kernel.tables import KINDS_SEEN, Setup, setup
 from sim.perceive.look import NUMBER
-from sim.perceive.look_tables import KINDS_SEEN, Setup, setup
-from sim.perceive.parameters import SensorSpec
+from sim.perceive.parameters import SUITES, SensorSpec
 from sim.perceive.percept import Percept
 from sim.rules.traffic import shift_table
 from sim.rules.traffic_cache import cached_reactions
-from sim.types import HAZARDS, Kind, ego_id, kind_of, phantom_id
+from sim.types import HAZARDS, Kind, ego_id, kind_of
 from sim.world import World
 from sim.world.boards import Boards
 from sim.world.grid import Board, Road
@@ -34,7 +37,6 @@ WORTHWHILE: Final = 100
 
 _ROUND: Final = 3
 """Digits of likelihoods."""
-_KINDS: Final = tuple(NUMBER)
 _KEPT_SETUPS: Final = 256
 
 _kernel: Any = None
@@ -98,9 +100,14 @@ def load() -> None:
     global _kernel
     with _loading:
         if _kernel is None:
-            from sim.perceive import look_kernel
+            from sim.perceive.kernel import tick
 
-            _kernel = look_kernel
+            # Functions are compiled when they are first called, so they are called here.
+            road = Road.of(3, 4)
+            nothing = World(road=road, avs=(road.start,), movers={}, hazards={}, numbered={})
+            config = Config(columns=road.columns, rows=road.rows, sensor="camera")
+            _sense(tick, nothing, config, 0, None, SUITES["camera"])
+            _kernel = tick
 
 
 def ready() -> bool:
@@ -109,7 +116,7 @@ def ready() -> bool:
     if _kernel is not None:
         return True
     _looks += 1
-    if _looks == WORTHWHILE:
+    if _looks == WORTHWHILE and sys.byteorder == "little":
         # Not a daemon: a process that ends in the middle of compiling would end badly.
         Thread(target=load, name="look-kernel").start()
     return False
@@ -122,25 +129,36 @@ def sense_tick(
 
     `belief`: that of the tick before; of a road of another size it counts as none. The kernel must be loaded.
     """
+    return _sense(_kernel, world, config, ego, belief, suite)
+
+
+def _sense(
+    kernel: Any,
+    world: World,
+    config: Config,
+    ego: int,
+    belief: GridBelief | None,
+    suite: tuple[SensorSpec, ...],
+) -> tuple[Percept, GridBelief]:
     road = world.road
     cells = road.columns * road.rows
     if belief is not None and len(belief.layers) != 2 * LAYERS * cells:
         belief = None
-    used = _setup(config, road, suite)
+    used = _setup(kernel, config, road, suite)
     followed = _followed(belief, world, config) if belief is not None else _NONE
     names = [*world.hazards.values(), *world.movers.values()]
-    shown, marked, layers, likelihoods = _call(world, config, ego, belief, used, followed, names)
+    shown, marked, layers, likelihoods = _call(kernel, world, config, ego, belief, used, followed, names)
     size = (cells + 7) // 8
     boards = [int.from_bytes(marked[at : at + size], "little") for at in range(0, len(marked), size)]
-    fixed_count, all_count, head = shown[0], shown[0] + shown[1], _kernel.SHOWN_HEAD
-    if shown[_kernel.TIES]:
+    fixed_count, all_count, head = shown[0], shown[0] + shown[1], SHOWN_HEAD
+    if shown[TIES]:
         likelihoods = [round(each, _ROUND) for each in likelihoods]
-    namer = _Namer(shown, head + 3 * all_count, names, belief.phantoms if belief is not None else 0)
-    middle = head + 3 * fixed_count
+    namer = Namer(shown, head + TRIPLE * all_count, names, belief.phantoms if belief is not None else 0)
+    middle = head + TRIPLE * fixed_count
     hazards = namer.named(head, middle, dict(belief.hazards) if belief is not None else {})
-    movers = namer.named(middle, head + 3 * all_count, followed[2])
+    movers = namer.named(middle, head + TRIPLE * all_count, followed[2])
     right, left = boards[0], boards[1]
-    first, doubts = _kernel.SEEN_BOARDS, _kernel.SEEN_DOUBTS
+    first, doubts = SEEN_BOARDS, SEEN_DOUBTS
     moving = first + len(HAZARDS)
     seen = _boards(tuple(boards[first:moving]), tuple(boards[moving:doubts]), *boards[2:first])
     reactions, driven = cached_reactions(world, config), world.driven
@@ -179,62 +197,18 @@ def sense_tick(
     return percept, after
 
 
-def _setup(config: Config, road: Road, suite: tuple[SensorSpec, ...]) -> Setup:
+def _setup(kernel: Any, config: Config, road: Road, suite: tuple[SensorSpec, ...]) -> Setup:
     """`setup`, found by identity: hashing a configuration takes as long as the kernel does."""
     found = _setups.get(id(config))
     if found is not None and found[0] is config and found[1] is road and found[2] is suite:
         return found[3]
     made = setup(config, road, suite)
     if not made.tables.shadows.any():
-        _kernel.fill_shadows(made.tables, road.columns)
+        kernel.fill_shadows(made.tables, road.columns)
     if len(_setups) >= _KEPT_SETUPS:
         _setups.clear()
     _setups[id(config)] = config, road, suite, made
     return made
-
-
-class _Namer:
-    """Names of what is believed to be there: `sim.perceive.grid_sensor` says by which rule."""
-
-    def __init__(self, shown: list[int], reports: int, names: list[str], phantoms: int) -> None:
-        """`reports`: where the reports begin in `shown`."""
-        self.phantoms = phantoms
-        self._shown = shown
-        self._reports = reports
-        self._names = names
-
-    def named(self, first: int, last: int, known: Mapping[int, str]) -> dict[int, str]:
-        """The ids of what is shown in some places of `shown`, by cell. `known`: of what was believed before."""
-        shown, names = self._shown, self._names
-        cells, things = shown[first:last:3], shown[first + 2 : last : 3]
-        if -1 not in things:
-            return {cell: names[thing] for cell, thing in zip(cells, things, strict=True)}
-        found = [names[thing] if thing >= 0 else "" for thing in things]
-        used, reported = set(found), self._reported()
-        for place, cell in enumerate(cells):
-            if not found[place]:
-                kind = shown[first + 3 * place + 1]
-                found[place] = self._name_of(
-                    _KINDS[kind], (known.get(cell), reported.get((kind, cell))), used
-                )
-                used.add(found[place])
-        return dict(zip(cells, found, strict=True))
-
-    def _name_of(self, kind: Kind, candidates: tuple[str | None, ...], used: set[str]) -> str:
-        for name in candidates:
-            if name is not None and name not in used and name.startswith(f"{kind}-"):
-                return name
-        self.phantoms += 1
-        return phantom_id(kind, self.phantoms)
-
-    def _reported(self) -> dict[tuple[int, int], str]:
-        """The ids of what was detected, by kind and the cell of the report."""
-        rest = self._shown[self._reports :]
-        return {
-            (kind, cell): self._names[thing]
-            for kind, cell, thing in zip(rest[::3], rest[1::3], rest[2::3], strict=True)
-            if thing >= 0
-        }
 
 
 _Followed = tuple[list[int], Board, Mapping[int, str]]
@@ -242,7 +216,7 @@ _NONE: Final[_Followed] = ([], 0, {})
 
 
 def _followed(belief: GridBelief, world: World, config: Config) -> _Followed:
-    """The movers that are followed (layers, cells before, cells after), those heading right, and their names."""
+    """Of the movers that are followed: layers, cells before and after; those heading right; their names."""
     motion = expected_motion(belief, world, config)
     table = dict(belief.movers)
     after = shift_table(table, motion)
@@ -256,6 +230,7 @@ def _followed(belief: GridBelief, world: World, config: Config) -> _Followed:
 
 
 def _call(
+    kernel: Any,
     world: World,
     config: Config,
     ego: int,
@@ -298,10 +273,10 @@ def _call(
     before = used.prior if belief is None else belief.layers
     most = 2 * cells
     layers = np.empty(LAYERS * cells, np.int16)
-    shown = np.empty(_kernel.SHOWN_HEAD + 3 * (most + devices * (things + KINDS_SEEN)), np.int64)
+    shown = np.empty(SHOWN_HEAD + TRIPLE * (most + devices * (things + KINDS_SEEN)), np.int64)
     likelihoods = np.empty(most)
-    marked = np.empty(_kernel.SEEN * size, np.uint8)
-    end = _kernel.sense_tick(
+    marked = np.empty(SEEN * size, np.uint8)
+    end = kernel.sense_tick(
         np.frombuffer(numbers, np.int64),
         np.frombuffer(boards, np.uint8),
         np.frombuffer(before, np.int16),

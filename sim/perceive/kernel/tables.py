@@ -1,8 +1,8 @@
-"""The tables of a suite of sensors as arrays, for the compiled look (`sim.perceive.look_kernel`).
+"""The tables of a suite of sensors as arrays, for the compiled look (`sim.perceive.kernel.tick`).
 
-They hold what `sim.perceive.sensor_model` and `sim.perceive.bayes_filter` compute for one weather, one time of
-day and one size of road. The last axis of most of them is as wide as two roads, so that a column of the road,
-less that of the vehicle, plus `columns` − 1 is a place in it. Rows are counted ahead of the vehicle.
+They hold what `sim.perceive.sensor_model` and `sim.perceive.bayes_filter` compute for one weather, one time
+of day and one size of road. The last axis of most of them is as wide as two roads, so that a column of the
+road, less that of the vehicle, plus `columns` − 1 is a place in it. Rows are counted ahead of the vehicle.
 """
 
 from __future__ import annotations
@@ -79,8 +79,8 @@ class SuiteTables(NamedTuple):
     halves: NDArray[np.int64]
     """(kind, 2): half the extent of a body across and along, 0 where it hides nothing"""
     shadows: NDArray[np.int16]
-    """(kind, place, rows, rows, 2): the first and last column, less the vehicle's, that a body hides in a row;
-    the first axes are where the body is. Filled by the kernel, since it takes long otherwise"""
+    """(kind, place, rows, rows, 2): the first and last column, less the vehicle's, that a body hides in a
+    row; the first axes are where the body is. Filled by the kernel, since it takes long otherwise"""
 
 
 @dataclass(frozen=True, eq=False)
