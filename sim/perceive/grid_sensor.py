@@ -18,7 +18,7 @@ from sim.perceive.parameters import SensorSpec
 from sim.perceive.percept import DOUBTS, Percept
 from sim.perceive.perfect import perceive_truth
 from sim.perceive.sensor import NO_BELIEF, Belief
-from sim.perceive.sensor_model import sensor_model
+from sim.perceive.sensor_model import sensor_model, tuning_of
 from sim.types import HAZARDS, KINDS, MOVERS, Kind, phantom_id
 from sim.world import World
 from sim.world.boards import Boards
@@ -40,7 +40,14 @@ def looks(world: World, config: Config, ego: int, suite: Iterable[SensorSpec]) -
             world,
             config,
             ego,
-            sensor_model(spec, config.weather, config.time_of_day, config.cell_m, world.road.columns),
+            sensor_model(
+                spec,
+                config.weather,
+                config.time_of_day,
+                config.cell_m,
+                world.road.columns,
+                tuning_of(config),
+            ),
         )
         for spec in suite
     ]

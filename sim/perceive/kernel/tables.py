@@ -23,7 +23,7 @@ from sim.perceive.look import NUMBER
 from sim.perceive.occlusion import half_size
 from sim.perceive.parameters import SensorSpec
 from sim.perceive.percept import DOUBTS
-from sim.perceive.sensor_model import SensorModel, sensor_model
+from sim.perceive.sensor_model import AS_BUILT, SensorModel, Tuning, sensor_model, tuning_of
 from sim.randomness import Stream
 from sim.rules.mover_boards import PERIODS
 from sim.types import HAZARDS, KINDS, MARKED, MOVERS, Kind
@@ -105,7 +105,9 @@ def setup(config: Config, road: Road, suite: tuple[SensorSpec, ...]) -> Setup:
     before = prior(config, road)
     inside, edge = before[FIXED:, 1, 0], before[FIXED:, 0, 0]
     return Setup(
-        suite_tables(suite, config.weather, config.time_of_day, config.cell_m, road.columns),
+        suite_tables(
+            suite, config.weather, config.time_of_day, config.cell_m, road.columns, tuning_of(config)
+        ),
         packed(before),
         np.array([mixing_table(int(value)) for value in inside], np.int16),
         np.maximum(np.stack([inside, edge], axis=1) - UNLIKELY, -LIMIT).astype(np.int16),
@@ -119,10 +121,15 @@ def _signed(word: int) -> int:
 
 @lru_cache(maxsize=32)
 def suite_tables(
-    suite: tuple[SensorSpec, ...], weather: Weather, light: TimeOfDay, cell_m: float, columns: int
+    suite: tuple[SensorSpec, ...],
+    weather: Weather,
+    light: TimeOfDay,
+    cell_m: float,
+    columns: int,
+    tuning: Tuning = AS_BUILT,
 ) -> SuiteTables:
     """The arrays of a suite under these conditions. `shadows` is still empty."""
-    models = [sensor_model(spec, weather, light, cell_m, columns) for spec in suite]
+    models = [sensor_model(spec, weather, light, cell_m, columns, tuning) for spec in suite]
     rows, places, count = max(model.reach for model in models) + 1, 2 * columns - 1, len(models)
     grid = (count, KINDS_SEEN, rows, places)
     tables = SuiteTables(
