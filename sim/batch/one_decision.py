@@ -19,7 +19,8 @@ from typing import Final
 import numpy as np
 
 from sim.batch.backward_dp import BUFFER, FAR, TICK, around, cost_of_way, sweep, totals_of_way
-from sim.batch.compiled import compiled, free_steps, max_ticks
+from sim.batch.compiled import free_steps, max_ticks
+from sim.compilation import compiled
 from sim.batch.reachability import (
     ALL_FIXED,
     BLOCKED,
