@@ -14,7 +14,7 @@ from tests.browser.walking import TICKS, bar, choose, figure, look, slider, worl
 PLAY = """
 () => {
   document.body.dispatchEvent(new KeyboardEvent("keydown", { key: " ", bubbles: true, cancelable: true }));
-  return document.querySelector("[data-past=play]").dataset.playing;
+  return document.querySelector("[data-act=clock]").getAttribute("aria-label");
 }
 """
 

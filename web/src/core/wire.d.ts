@@ -1259,6 +1259,8 @@ export interface Session {
   pending?: PendingQuestion | null;
   /** Of a fork, or a session that a link opened; else null. */
   parent: Parent | null;
+  /** Open streams of it, sockets and events alike. */
+  watchers?: number;
   links: { [key: string]: string };
 }
 
