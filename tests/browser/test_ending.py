@@ -123,10 +123,7 @@ def test_where_others_watch_only_ones_own_view_stays_at_the_end(
     first.page.get_by_role("button", name="Resume").click()
     expect(first.page.locator("#connection")).to_contain_text("Past")
     expect(first.page.locator(".verdict-title")).to_have_text(re.compile("success", re.IGNORECASE))
-    first.until(
-        "async () => (await (await fetch(`/api/v1${location.hash.replace('#/s/', '/sessions/')}`)).json())"
-        ".episode > 1"
-    )
+    first.until("async (id) => (await (await fetch(`/api/v1/sessions/${id}`)).json()).episode > 1", session)
     assert not first.script.state()["paused"]
     expect(first.page.locator(".verdict")).to_be_visible()
     expect(first.page.locator("[data-figure=episode] .figure-value")).to_have_text("1")
