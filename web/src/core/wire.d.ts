@@ -582,6 +582,8 @@ export interface JudgedDecision {
   cost: number | null;
   /** Whether the goal could be reached before the move, and not after it. */
   lost: boolean;
+  /** From the vehicle to what is nearest on the road, centre to centre; null where nothing else is there. */
+  clearance_m?: number | null;
 }
 
 /** What a thing on the road is. */

@@ -32,6 +32,7 @@ import { createStatus } from "./status.js";
 import { createTabs } from "./tabs.js";
 import { createTalk } from "../talk/conversation.js";
 import { createTourLoader } from "./tourLoader.js";
+import { createStripLoader } from "../timeline/stripLoader.js";
 import { createTimeline } from "../timeline/timeline.js";
 import { createVerdict } from "./verdict.js";
 import { createViews } from "./views.js";
@@ -57,6 +58,7 @@ export function createPanels(page) {
     road,
     createVerdict(byId("road"), page, road.places),
     createTimeline(byId("timeline"), page),
+    createStripLoader(byId("strip"), page),
     createPast(byId("past"), page),
     createSessionMenu(byId("session-menu"), page),
     createExport(byId("files"), page),
