@@ -127,3 +127,38 @@ async def test_what_cannot_be_is_refused_with_the_reason(service: Service) -> No
         answer = await service.client.post(f"{path}/counterfactual", json=body)
         assert answer.status_code == 422, name
         assert words in answer.text, name
+
+
+async def test_two_planners_drive_the_same_road_from_where_its_episode_began(service: Service) -> None:
+    path = await service.session(paused=True, seed=16, config={"vehicles": 24})
+    await service.client.post(f"{path}/step", json={"ticks": 6})
+    before = (await service.state(path))["digest"]
+    found = await otherwise(service, path, planners=["rules", "dijkstra"])
+    assert found["at_tick"] == 0
+    planners = {
+        side: {tick["decision"]["planner"] for tick in found[side]["ticks"]} for side in ("real", "changed")
+    }
+    assert planners == {"real": {"rules"}, "changed": {"dijkstra"}}
+    assert found["real"]["state"]["movers"] == found["changed"]["state"]["movers"]
+    part = found["parting"]
+    moves = {
+        side: [tick["decision"]["move"] for tick in found[side]["ticks"]] for side in ("real", "changed")
+    }
+    assert moves["real"][: part["tick"]] == moves["changed"][: part["tick"]]
+    assert part["real"]["move"] == moves["real"][part["tick"]]
+    assert part["changed"]["move"] == moves["changed"][part["tick"]]
+    assert part["real"]["move"] != part["changed"]["move"]
+    assert part["real"]["text"] != part["changed"]["text"]
+    assert (await otherwise(service, path, planners=["bfs", "bfs"]))["parting"] is None
+    assert (await service.state(path))["digest"] == before
+
+
+async def test_a_planner_that_there_is_not_is_refused_by_name(service: Service) -> None:
+    path = await service.session(paused=True)
+    for body in (
+        {"planners": ["rules", "flibber"]},
+        {"planners": ["rules"]},
+        {"planners": ["rules", "bfs"], "move": "stay"},
+    ):
+        answer = await service.client.post(f"{path}/counterfactual", json=body)
+        assert answer.status_code in (409, 422), answer.text

@@ -320,6 +320,8 @@ export interface Counterfactual {
   changed: Side;
   /** What differs, in a sentence or two. */
   text?: string;
+  /** Where they first decide differently; null where they never do. */
+  parting?: Parting | null;
 }
 
 /** What an ego crashed with. Met in one cell (`hit`), passing through one another (`swap`), or cut off on a diagonal (`cross`). */
@@ -852,7 +854,7 @@ export interface Option {
   text?: string;
 }
 
-/** What is otherwise, and from when: a move or actions, one of the two. */
+/** What is otherwise, and from when: a move, actions or two planners, one of the three. */
 export interface Otherwise {
   /** Default: now; of a move, the latest decision. */
   at_tick?: number | null;
@@ -860,6 +862,8 @@ export interface Otherwise {
   move?: "forward" | "left" | "right" | "forward_left" | "forward_right" | "stay" | null;
   /** Done there, together or not at all. */
   actions?: Action[] | null;
+  /** Two planners on this road; by default from where its episode began. */
+  planners?: [string, string] | null;
   /** How many ticks of each are told at most. */
   ticks?: number;
 }
@@ -880,6 +884,21 @@ export interface Parsed {
   actions: Action[];
   source: "grammar" | "llm";
   corrections: Correction[];
+}
+
+/** The first tick at which the two decide differently. */
+export interface Parting {
+  /** Ticks since the session began. */
+  tick: number;
+  real: PartingMove;
+  changed: PartingMove;
+}
+
+/** What one of the two does where they part. */
+export interface PartingMove {
+  move: Move;
+  /** The move and its reason in a sentence. */
+  text: string;
 }
 
 /** Stop the clock. */
