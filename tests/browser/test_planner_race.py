@@ -1,4 +1,4 @@
-"""Planner beside planner on one road: in step, with the first difference told, and under a link of its own."""
+"""Planner beside planner on one road: in step, the first difference told, under a link of its own."""
 
 from __future__ import annotations
 

@@ -111,8 +111,11 @@ async def test_what_cannot_be_is_refused_with_the_reason(service: Service) -> No
     refused = {
         "already made": ({"at_tick": 1, "move": made}, "That is the move that was made."),
         "to come": ({"at_tick": 99, "move": "stay"}, "Tick 99 has not come yet: it is tick 2."),
-        "both": ({"move": "stay", "actions": [{"do": "reset"}]}, "say either a move or actions"),
-        "neither": ({}, "say either a move or actions"),
+        "both": (
+            {"move": "stay", "actions": [{"do": "reset"}]},
+            "say either a move, actions or two planners",
+        ),
+        "neither": ({}, "say either a move, actions or two planners"),
         "no change": ({"actions": [{"do": "pause"}]}, "changes nothing on the road"),
         "not there": (
             {"actions": [{"do": "remove", "kind": "pothole", "count": 1, "where": {"id": "pothole-99"}}]},
@@ -135,10 +138,8 @@ async def test_two_planners_drive_the_same_road_from_where_its_episode_began(ser
     before = (await service.state(path))["digest"]
     found = await otherwise(service, path, planners=["rules", "dijkstra"])
     assert found["at_tick"] == 0
-    planners = {
-        side: {tick["decision"]["planner"] for tick in found[side]["ticks"]} for side in ("real", "changed")
-    }
-    assert planners == {"real": {"rules"}, "changed": {"dijkstra"}}
+    for side, planner in (("real", "rules"), ("changed", "dijkstra")):
+        assert {tick["decision"]["planner"] for tick in found[side]["ticks"]} == {planner}
     assert found["real"]["state"]["movers"] == found["changed"]["state"]["movers"]
     part = found["parting"]
     moves = {
@@ -155,10 +156,11 @@ async def test_two_planners_drive_the_same_road_from_where_its_episode_began(ser
 
 async def test_a_planner_that_there_is_not_is_refused_by_name(service: Service) -> None:
     path = await service.session(paused=True)
-    for body in (
+    bodies: list[Json] = [
         {"planners": ["rules", "flibber"]},
         {"planners": ["rules"]},
         {"planners": ["rules", "bfs"], "move": "stay"},
-    ):
+    ]
+    for body in bodies:
         answer = await service.client.post(f"{path}/counterfactual", json=body)
         assert answer.status_code in (409, 422), answer.text
