@@ -98,8 +98,8 @@ class StaticFile:
 class StaticPage(StaticFile):
     """An HTML page that preloads the modules of its scripts."""
 
-    def __init__(self, file: Path) -> None:
-        super().__init__(file)
+    def __init__(self, file: Path, headers: Mapping[str, str] | None = None) -> None:
+        super().__init__(file, headers)
         self._modules: list[Path] = []
 
     def sources(self) -> Iterable[Path]:

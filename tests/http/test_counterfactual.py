@@ -115,7 +115,7 @@ async def test_what_cannot_be_is_refused_with_the_reason(service: Service) -> No
             {"move": "stay", "actions": [{"do": "reset"}]},
             "say either a move, actions or two planners",
         ),
-        "neither": ({}, "say either a move, actions or two planners"),
+        "neither": ({}, "actions or two planners"),
         "no change": ({"actions": [{"do": "pause"}]}, "changes nothing on the road"),
         "not there": (
             {"actions": [{"do": "remove", "kind": "pothole", "count": 1, "where": {"id": "pothole-99"}}]},
