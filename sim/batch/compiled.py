@@ -8,12 +8,8 @@ of the outermost function, and would go on using an old rule that had been compi
 
 from __future__ import annotations
 
-import os
-import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import cache
-from hashlib import blake2b
 from pathlib import Path
 from types import FunctionType
 from typing import Any, Final
@@ -23,50 +19,12 @@ import numpy as np
 from numba.cpython.unsafe import numbers
 
 from sim import randomness
+from sim.compiled_files import cache_folder
 from sim.rules import ego_step, limits, traffic
 from sim.rules.mover_boards import PERIODS
 from sim.types import Kind
 
 config: Any = numba.config
-
-_SIM: Final = Path(__file__).parent.parent
-_COMPILED_IN: Final = tuple(
-    _SIM / name
-    for name in (
-        "rules/ego_step.py",
-        "rules/mover_boards.py",
-        "rules/limits.py",
-        "rules/traffic.py",
-        "randomness.py",
-        "generation.py",
-        "types.py",
-    )
-)
-"""Sources outside this package whose functions or constants are compiled into it."""
-_KEPT_VERSIONS: Final = 3
-
-
-@cache
-def cache_folder() -> Path | None:
-    """Where compiled code of exactly these sources is kept; None if nothing can be written."""
-    digest = blake2b(numba.__version__.encode(), digest_size=8)
-    for source in (*_COMPILED_IN, *sorted((_SIM / "batch").glob("*.py"))):
-        digest.update(source.read_bytes())
-    home = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "roadtalk" / "compiled"
-    folder = Path(os.environ.get("NUMBA_CACHE_DIR") or home) / digest.hexdigest()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / ".used").touch()
-        _forget_old(folder.parent)
-    except OSError:
-        return None
-    return folder
-
-
-def _forget_old(folder: Path) -> None:
-    versions = sorted(folder.glob("*/.used"), key=lambda mark: mark.stat().st_mtime, reverse=True)
-    for mark in versions[_KEPT_VERSIONS:]:
-        shutil.rmtree(mark.parent, ignore_errors=True)
 
 
 @contextmanager
