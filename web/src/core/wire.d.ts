@@ -320,6 +320,8 @@ export interface Counterfactual {
   changed: Side;
   /** What differs, in a sentence or two. */
   text?: string;
+  /** Where they first decide differently; null where they never do. */
+  parting?: Parting | null;
 }
 
 /** What an ego crashed with. Met in one cell (`hit`), passing through one another (`swap`), or cut off on a diagonal (`cross`). */
@@ -582,6 +584,8 @@ export interface JudgedDecision {
   cost: number | null;
   /** Whether the goal could be reached before the move, and not after it. */
   lost: boolean;
+  /** From the vehicle to what is nearest on the road, centre to centre; null where nothing else is there. */
+  clearance_m?: number | null;
 }
 
 /** What a thing on the road is. */
@@ -850,7 +854,7 @@ export interface Option {
   text?: string;
 }
 
-/** What is otherwise, and from when: a move or actions, one of the two. */
+/** What is otherwise, and from when: a move, actions or two planners, one of the three. */
 export interface Otherwise {
   /** Default: now; of a move, the latest decision. */
   at_tick?: number | null;
@@ -858,6 +862,8 @@ export interface Otherwise {
   move?: "forward" | "left" | "right" | "forward_left" | "forward_right" | "stay" | null;
   /** Done there, together or not at all. */
   actions?: Action[] | null;
+  /** Two planners on this road; by default from where its episode began. */
+  planners?: [string, string] | null;
   /** How many ticks of each are told at most. */
   ticks?: number;
 }
@@ -878,6 +884,21 @@ export interface Parsed {
   actions: Action[];
   source: "grammar" | "llm";
   corrections: Correction[];
+}
+
+/** The first tick at which the two decide differently. */
+export interface Parting {
+  /** Ticks since the session began. */
+  tick: number;
+  real: PartingMove;
+  changed: PartingMove;
+}
+
+/** What one of the two does where they part. */
+export interface PartingMove {
+  move: Move;
+  /** The move and its reason in a sentence. */
+  text: string;
 }
 
 /** Stop the clock. */
@@ -1259,6 +1280,8 @@ export interface Session {
   pending?: PendingQuestion | null;
   /** Of a fork, or a session that a link opened; else null. */
   parent: Parent | null;
+  /** Open streams of it, sockets and events alike. */
+  watchers?: number;
   links: { [key: string]: string };
 }
 
