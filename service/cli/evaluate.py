@@ -120,7 +120,7 @@ def _run(spec: Evaluation, processes: int, parts: dict[Part, bytes], language: s
     title = evaluation_words(language).title(spec)
     try:
         with _bar() as bar:
-            task = bar.add_task(plain(title), total=spec.episodes)
+            task = bar.add_task(plain(title), total=spec.total)
             for piece, body in executor.run(partial(pack_part, spec.to_json()), spec.parts(), cancelled):
                 parts[piece] = body
                 bar.update(task, advance=piece.count)

@@ -20,7 +20,7 @@ import structlog
 from service.actions import Action
 from service.actions.table import traits_of
 from service.contract.encode.state import SessionStatus
-from service.evaluations.start import start_evaluation
+from service.evaluations.start import start_evaluation, talk_of_evaluation
 from service.problems import NotSaved, ProblemError, UnknownName, UnknownSession
 from service.server_timing import part as timed
 from service.sessions.bookmarks import add_other_session
@@ -31,6 +31,7 @@ from service.sessions.facts import (
     Asked,
     Fact,
     JobAsked,
+    JobTold,
     merge_views,
     parts_with_events,
     performed_actions,
@@ -421,6 +422,8 @@ class Session:
         for fact in facts:
             if isinstance(fact, JobAsked):
                 fact = await start_evaluation(self.services.jobs, fact, language, self.id)
+            elif isinstance(fact, JobTold):
+                fact = await talk_of_evaluation(self.services.jobs, fact, self.id)
             started.append(fact)
         return tuple(started)
 

@@ -28,6 +28,9 @@ def run_part(spec: Evaluation, part: Part, cancelled: Callable[[], bool] = lambd
     Raises `CancelledError` soon after `cancelled()` is true, and `GenerationError` where a road must be
     drivable and none is found.
     """
+    if spec.cases:
+        number, first = divmod(part.first, spec.episodes)
+        return run_part(spec.under(number), Part(first, part.count), cancelled)
     close = part.first < DETAILED
     rows: Rows = {}
     for planner in spec.planners:

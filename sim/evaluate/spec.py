@@ -9,6 +9,7 @@ from typing import Any, Final
 
 from sim import planner_names
 from sim.config import COUNTS, Config, ConfigError, Problem
+from sim.evaluate.cases import MAX_CASES, SENSING, Case, config_under
 from sim.generation import GenerationError, generate
 from sim.oracle.lower_bounds import can_arrive
 from sim.randomness import MAX_SEED
@@ -59,7 +60,8 @@ class Evaluation:
 
     Episode i is the first one of the configuration with the seed `seed` + i, the same for every planner.
     With a `world`, every episode starts from that one (`sim.world.notation`), and the seed decides only what
-    is left to chance.
+    is left to chance. With `cases`, every planner drives all of them under each, and there are `total`
+    episodes: those of the first case come first, then those of the second, each from the same seeds.
     """
 
     planners: tuple[str, ...]
@@ -67,6 +69,7 @@ class Evaluation:
     config: Config = field(default_factory=Config)
     seed: int = 0
     world: str | None = None
+    cases: tuple[Case, ...] = ()
 
     def __post_init__(self) -> None:
         names = tuple(dict.fromkeys(planner_names.canonical(name) for name in self.planners))
@@ -76,8 +79,9 @@ class Evaluation:
         object.__setattr__(self, "config", replace(self.config, planner=names[0], seed=self.seed))
 
     def _problems(self) -> Iterator[Problem]:
-        if not 1 <= self.episodes <= MAX_EPISODES:
-            yield Problem("episodes", "must_be_between", low=1, high=MAX_EPISODES)
+        most = MAX_EPISODES // max(1, len(self.cases))
+        if not 1 <= self.episodes <= most:
+            yield Problem("episodes", "must_be_between", low=1, high=most)
         elif not 0 <= self.seed <= MAX_SEED - self.episodes:
             yield Problem("seed", "must_be_between", low=0, high=MAX_SEED - self.episodes)
         if not 1 <= len(self.planners) <= MAX_PLANNERS:
@@ -87,9 +91,36 @@ class Evaluation:
                 self.config.with_parts(planner=name)
             except ConfigError as error:
                 yield from (Problem("planners", each.code, **each.facts) for each in error.problems)
+        yield from self._case_problems()
+
+    def _case_problems(self) -> Iterator[Problem]:
+        if len(self.cases) > MAX_CASES:
+            yield Problem("conditions", "must_be_between", low=1, high=MAX_CASES)
+        for case in self.cases:
+            if self.world is not None and any(name not in SENSING for name in case.said):
+                yield Problem("conditions", "must_be_a_list_of", choices=SENSING)
+                return
+            try:
+                config_under(self.config, case)
+            except ConfigError as error:
+                yield from error.problems
+                return
+
+    @property
+    def total(self) -> int:
+        """Episodes of each planner under all conditions together."""
+        return self.episodes * max(1, len(self.cases))
+
+    def under(self, number: int) -> Evaluation:
+        """The evaluation of one case, as one that has no others."""
+        return replace(self, config=config_under(self.config, self.cases[number]), cases=())
 
     def check_road(self) -> None:
         """Raises `EvaluationError` where the road is known to have no way to the goal."""
+        if self.cases:
+            for number in range(len(self.cases)):
+                self.under(number).check_road()
+            return
         try:
             if self.world is None:
                 generate(self.config, 1)
@@ -145,6 +176,12 @@ class Evaluation:
 
     def parts(self) -> list[Part]:
         """The evaluation cut into pieces of work: the first ones, which are followed closely, are small."""
+        if self.cases:
+            return [
+                Part(number * self.episodes + part.first, part.count)
+                for number in range(len(self.cases))
+                for part in self.under(number).parts()
+            ]
         edge, size = min(DETAILED, self.episodes), self.part_size
         firsts = [*range(0, edge, LIVE_PART), *range(edge, self.episodes, size)]
         ends = [*firsts[1:], self.episodes]
@@ -158,6 +195,7 @@ class Evaluation:
             "config": asdict(self.config),
             "seed": self.seed,
             "world": self.world,
+            "cases": [case.to_json() for case in self.cases],
         }
 
     @staticmethod
@@ -167,4 +205,5 @@ class Evaluation:
         parts = {name: value for name, value in values.items() if name in known}
         parts["planners"] = tuple(parts["planners"])
         parts["config"] = saved_config(parts["config"])
+        parts["cases"] = tuple(map(Case.from_json, parts.get("cases", ())))
         return Evaluation(**parts)

@@ -24,6 +24,7 @@ from service.http.evaluation_json import evaluation_json, evaluation_links, lang
 from service.http.pagination import After, Limit, cursor, page_json
 from service.http.responses import json_response
 from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.routes.create_session import described_config
 from service.http.validation import invalid
 from service.jobs import JobState
@@ -52,12 +53,13 @@ from sim.evaluate import Evaluation, EvaluationError
 
 router = api_router("evaluations")
 
-_ALONE = ("runs", "planners", "scenario", "config", "road")
+_ALONE = ("runs", "planners", "scenario", "config", "road", "vary")
 """What a sentence says itself."""
 _REPORT_POLICY = {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
 }
 """A report holds its own styles, and loads nothing."""
+_TICKET = "Opens it without a key; part of `links.report`, for a day."
 _LOCATION = {"headers": {"Location": {"description": "Where it is.", "schema": {"type": "string"}}}}
 _FORMATS = {
     "html": "text/html; charset=utf-8",
@@ -104,7 +106,11 @@ async def create_evaluation(
     record = await here.jobs.start(
         EVALUATION, job_spec(spec, language, None if session is None else session.id), language=language
     )
-    return json_response(evaluation_json(record), 202, {"Location": evaluation_links(record.id)["self"]})
+    return json_response(
+        evaluation_json(record, here.guard.link_tickets),
+        202,
+        {"Location": evaluation_links(record.id)["self"]},
+    )
 
 
 @router.get(
@@ -127,7 +133,7 @@ async def list_evaluations(here: Here, after: After = None, limit: Limit = 50) -
 )
 async def read_evaluation(evaluation_id: str, here: Here) -> Response:
     """How far it is, and what came of it."""
-    return json_response(evaluation_json(await here.jobs.get(evaluation_id)))
+    return json_response(evaluation_json(await here.jobs.get(evaluation_id), here.guard.link_tickets))
 
 
 @router.delete(
@@ -161,11 +167,13 @@ async def delete_evaluation(evaluation_id: str, here: Here) -> Response:
         **problem_responses(UnknownJob, Invalid, NotFinished, NotSaved),
     },
 )
+@policy(link=True)
 async def read_report(
     evaluation_id: str,
     here: Here,
     request: Request,
     format: Annotated[Literal["html", "markdown", "json", "csv"], Query()] = "html",
+    ticket: Annotated[str | None, Query(max_length=100, description=_TICKET)] = None,  # noqa: ARG001
 ) -> Response:
     """In plain language first, then plots and tables; `csv` has a line for each episode and planner.
 
@@ -227,7 +235,7 @@ async def _read_evaluation(
         action = await _read_sentence(here, body.text, session, language)
     else:
         planners = None if body.planners is None else tuple(body.planners)
-        action = Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road)
+        action = Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road, vary=body.vary)
     if state is None:
         parts = {"seed": 0, **(body.config or {})}
         asked = bodies.NewSession.model_validate({"scenario": body.scenario, "config": parts})
