@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 from urllib.parse import quote
 
@@ -271,6 +271,7 @@ def create_evaluation(
     config: Json | None,
     session: str | None,
     road: str | None,
+    vary: Mapping[str, Sequence[Any]] | None,
     seed: int | None,
     language: str | None,
 ) -> Call[answers.Evaluation]:
@@ -283,6 +284,7 @@ def create_evaluation(
         config=config,
         session=session,
         road=road,
+        vary=None if vary is None else {name: [*values] for name, values in vary.items()},
         seed=seed,
         language=language,
     )

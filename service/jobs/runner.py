@@ -143,7 +143,7 @@ class JobRunner:
             raise NotSaved from error
 
     async def latest_of(self, session: str) -> JobRecord | None:
-        """The newest job that a session asked for; None where it is not among the newest. Raises `NotSaved`."""
+        """The latest job of a session; None where it is not among the newest. Raises `NotSaved`."""
         found = await self.newest(NEWEST)
         return next((job for job in found if job.spec.get("session") == session), None)
 

@@ -110,7 +110,10 @@ class EvaluationWords:
     def paragraphs(self, spec: Evaluation, summary: Json) -> list[str]:
         """What came of it: a paragraph for each planner, each comparison, and the roads."""
         told = self._by_case(spec, summary)
-        told += [self._planner(planner, summary) for planner in spec.planners]
+        together = [self._planner(planner, summary) for planner in spec.planners]
+        if spec.cases:
+            together[0] = self._say("together", told=together[0])
+        told += together
         told += [self._compared(each, summary) for each in summary["comparisons"]]
         told.append(self._roads(spec, summary))
         return told
@@ -157,14 +160,16 @@ class EvaluationWords:
         told = [usual] if usual else []
         if spec.cases:
             told.append(self._sayings.joined([self.condition(case.said) for case in spec.cases]))
-        return f" {self._sayings.chained(told, ', ')}" if told else ""
+        return f", {self._sayings.chained(told, ', ')}" if told else ""
 
     def _by_case(self, spec: Evaluation, summary: Json) -> list[str]:
         """What each condition came to, and what it does compared with the first."""
         told = []
         for case in summary.get("cases", ()):
             arrived = " ".join(self._arrived(planner, case) for planner in spec.planners)
-            told.append(self._say("case", condition=capital(self.condition(case["said"])), told=arrived))
+            pairs = [self._compared(each, case) for each in case["comparisons"]]
+            under = capital(self.condition(case["said"]))
+            told.append(" ".join([self._say("case", condition=under, told=arrived), *pairs]))
         effects = [self._effect(each, summary) for each in summary.get("effects", ())]
         return [*told, " ".join(effects)] if effects else told
 

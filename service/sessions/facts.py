@@ -104,7 +104,7 @@ class JobAsked:
 
 @dataclass(frozen=True, slots=True)
 class JobTold:
-    """How an evaluation stands, or that it is cancelled; `job` is None where there is none, as in a replay."""
+    """How an evaluation stands, or its end; `job` is None where there is none, as in a replay."""
 
     want: Literal["progress", "cancel"]
     known: bool = False
@@ -219,7 +219,7 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.before, fact.tick), *fact.changes)
         case Resolved():
             return tuple(change for each in fact.done for change in each.changes)
-        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped() | JobAsked():
+        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped() | JobAsked() | JobTold():
             return ()
 
 

@@ -20,6 +20,8 @@ def summarize_cases(
     """All figures as JSON values: those of all episodes, with `cases` and `effects` beside them."""
     alone = [summarize(spec.under(number), rows, cancelled) for number, rows in enumerate(cases)]
     together = summarize(replace(spec, episodes=spec.total, cases=()), _together(cases), look=False)
+    # Runs of the same seed under two conditions are no two pairs, so planners are compared under each alone.
+    together["comparisons"] = []
     together["alike"] = alone[0]["alike"]
     together["examples"] = [
         {**example, "case": number} for number, each in enumerate(alone) for example in each.pop("examples")

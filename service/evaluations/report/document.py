@@ -52,6 +52,7 @@ def make_document(
     method = [
         words.label("drawn", told=words.whole(spec.config)),
         words.label("method", seed=spec.seed, close=min(DETAILED, spec.episodes)),
+        *([words.label("method_cases")] if spec.cases else []),
         words.label("program", version=PROGRAM, rules=spec.config.rules),
     ]
     return Document(

@@ -134,31 +134,36 @@ def cases_table(spec: Evaluation, summary: Json, words: EvaluationWords, behind:
 
 
 def pairs_table(spec: Evaluation, summary: Json, words: EvaluationWords, behind: Behind) -> list[Table]:
-    """Each other planner compared with the first, run by run."""
-    if not summary["comparisons"]:
+    """Each other planner compared with the first, run by run, under each condition."""
+    if len(spec.planners) < 2:
         return []
     first = words.planner(spec.planners[0])
     head = [words.label("planner"), words.label("both"), words.label("only", planner=first)]
-    head += [words.label("only", planner="↓"), words.label("neither"), words.label("difference")]
+    head += [words.label("only_other"), words.label("neither"), words.label("difference")]
     head += [words.label("interval"), words.label("p")]
     rows = [[Cell(name) for name in head]]
-    for pair in summary["comparisons"]:
-        counts = [words.number(pair[name], ",") for name in ("both", "only_first", "only_second", "neither")]
-        links = [
-            behind.find(pair["second"], "arrived"),
-            behind.find(pair["second"], "only_first"),
-            behind.find(pair["first"], f"only_{pair['second']}"),
-            None,
-        ]
-        difference = pair["difference"]
-        shares = [words.percent(difference[name], 2) for name in ("share", "low", "high")]
-        name = f"{first} – {words.planner(pair['second'])}"
-        counted = [Cell(text, link) for text, link in zip(counts, links, strict=True)]
-        p_value = words.probability(pair["p_value"])
-        rows.append(
-            [Cell(name), *counted, Cell(shares[0]), Cell(f"{shares[1]} … {shares[2]}"), Cell(p_value)]
-        )
+    for number, each in enumerate(summary.get("cases") or (summary,)):
+        under = f" ({words.condition(each['said'])})" if spec.cases else ""
+        case = number if spec.cases else None
+        rows += [_pair(pair, under, words, behind, case) for pair in each["comparisons"]]
     return [Table(words.label("pairs"), rows)]
+
+
+def _pair(pair: Json, under: str, words: EvaluationWords, behind: Behind, case: int | None) -> list[Cell]:
+    first, second = pair["first"], pair["second"]
+    counts = [words.number(pair[name], ",") for name in ("both", "only_first", "only_second", "neither")]
+    links = [
+        behind.find(second, "arrived", case),
+        behind.find(second, "only_first", case),
+        behind.find(first, f"only_{second}", case),
+        None,
+    ]
+    difference = pair["difference"]
+    shares = [words.percent(difference[name], 2) for name in ("share", "low", "high")]
+    counted = [Cell(text, link) for text, link in zip(counts, links, strict=True)]
+    name = Cell(f"{words.planner(first)} – {words.planner(second)}{under}")
+    p_value = Cell(words.probability(pair["p_value"]))
+    return [name, *counted, Cell(shares[0]), Cell(f"{shares[1]} … {shares[2]}"), p_value]
 
 
 def _share(share: Json, words: EvaluationWords, link: str | None) -> Cell:

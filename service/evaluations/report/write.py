@@ -23,8 +23,10 @@ _PAGE: Final = Template("""<!doctype html>
 <title>$title</title>
 <style>
 :root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 64rem; margin: 2rem auto; padding: 0 1rem; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
+th { vertical-align: bottom; }
+td { white-space: nowrap; }
 th, td { padding: .25rem .8rem .25rem 0; border-bottom: 1px solid #8886; text-align: left; }
 figure { margin: 1rem 0; background: #fff; color: #000; padding: .5rem; border-radius: .4rem; }
 figure svg { width: 100%; height: auto; }

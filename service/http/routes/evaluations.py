@@ -106,11 +106,8 @@ async def create_evaluation(
     record = await here.jobs.start(
         EVALUATION, job_spec(spec, language, None if session is None else session.id), language=language
     )
-    return json_response(
-        evaluation_json(record, here.guard.link_tickets),
-        202,
-        {"Location": evaluation_links(record.id)["self"]},
-    )
+    where = {"Location": evaluation_links(record.id)["self"]}
+    return json_response(evaluation_json(record, here.guard.link_tickets), 202, where)
 
 
 @router.get(
