@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from threading import Event
-from typing import Annotated, Any, Final
+from typing import Annotated, Any, Final, TypeAlias
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -24,6 +24,8 @@ from sim.config import Config
 from sim.evaluate import Evaluation, EvaluationError, Part
 
 FORMATS: Final = {".html": "html", ".md": "markdown", ".json": "json", ".csv": "csv"}
+Ran: TypeAlias = tuple[dict[str, Any], dict[Part, bytes]]
+"""What came of an evaluation, and of its parts."""
 POLL_S: Final = 0.5
 """Seconds between two looks at an evaluation that a service runs."""
 
@@ -81,8 +83,18 @@ def _here(
 ) -> None:
     """Run it on this machine."""
     spec = _read(text, seed, language, _varied(vary))
+    report_of(spec, run_here(spec, processes, language), to, language, as_json, url)
+
+
+def run_here(spec: Evaluation, processes: int, language: str) -> Ran:
+    """The summary of an evaluation and its parts, run on this machine with a bar; Ctrl-C ends it."""
     parts: dict[Part, bytes] = {}
-    summary = _run(spec, processes, parts, language)
+    return _run(spec, processes, parts, language), parts
+
+
+def report_of(spec: Evaluation, ran: Ran, to: list[Path], language: str, as_json: bool, url: str) -> None:
+    """Print what came of an evaluation, and write its reports."""
+    summary, parts = ran
     words = evaluation_words(language)
     if as_json:
         echo_json({"spec": spec.to_json(), "result": summary})

@@ -271,6 +271,7 @@ def create_evaluation(
     config: Json | None,
     session: str | None,
     road: str | None,
+    file: Json | None,
     vary: Mapping[str, Sequence[Any]] | None,
     seed: int | None,
     language: str | None,
@@ -284,7 +285,8 @@ def create_evaluation(
         config=config,
         session=session,
         road=road,
-        vary=None if vary is None else {name: [*values] for name, values in vary.items()},
+        file=file,
+        vary=vary,
         seed=seed,
         language=language,
     )

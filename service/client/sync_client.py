@@ -164,6 +164,7 @@ class Client:
         config: Json | None = None,
         session: str | None = None,
         road: str | None = None,
+        file: Json | None = None,
         vary: Mapping[str, Sequence[Any]] | None = None,
         seed: int | None = None,
         language: str | None = None,
@@ -173,7 +174,7 @@ class Client:
         They are run in the background; `evaluation` says how far they are, and `report` what came of them.
         """
         call = endpoints.create_evaluation(
-            text, runs, planners, scenario, config, session, road, vary, seed, language
+            text, runs, planners, scenario, config, session, road, file, vary, seed, language
         )
         return self._send(call)
 

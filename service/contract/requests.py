@@ -138,6 +138,11 @@ class NewEvaluation(Sent):
         description="Values that are compared, such as `weather` of `clear` and `fog`: each combination is "
         "run from the same seeds, and all are compared with the first.",
     )
+    file: dict[str, Any] | None = Field(
+        None,
+        description="A scenario file, as JSON (see `roadtalk scenario schema`). Beside it: runs, planners, "
+        "seed, language.",
+    )
     session: str | None = Field(
         None, max_length=64, description="Roads as in this session; alone or with a text, runs, planners."
     )

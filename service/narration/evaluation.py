@@ -160,6 +160,9 @@ class EvaluationWords:
         told = [usual] if usual else []
         if spec.cases:
             told.append(self._sayings.joined([self.condition(case.said) for case in spec.cases]))
+        if spec.rules:
+            form = "one" if len(spec.rules) == 1 else "many"
+            told.append(self._say("with_rules", form, count=self._whole(len(spec.rules))))
         return f", {self._sayings.chained(told, ', ')}" if told else ""
 
     def _by_case(self, spec: Evaluation, summary: Json) -> list[str]:

@@ -11,6 +11,7 @@ import numpy as np
 from sim.evaluate.closeness import Closeness
 from sim.evaluate.executor import CancelledError
 from sim.evaluate.extremes import extremes
+from sim.evaluate.part import with_rules
 from sim.evaluate.rows import ARRIVED, NO_WAY, ROADS, Rows
 from sim.evaluate.spec import Evaluation
 from sim.state import SimState
@@ -82,10 +83,10 @@ def _look(spec: Evaluation, planner: str, index: int, solvable: bool, shows: tup
     closeness, nearest = Closeness(), 0
     while states[-1].world.outcome is Outcome.RUNNING:
         done = step(states[-1])
-        states.append(done.state)
+        states.append(with_rules(states[-1], done.state))
         moves.append(None if done.decision is None else done.decision.move)
         before = closeness.ttc_s, closeness.gap_m
-        closeness.add(states[-2], states[-1], moves[-1])
+        closeness.add(states[-2], done.state, moves[-1])
         if (closeness.ttc_s, closeness.gap_m) != before:
             nearest = len(moves)
     last = states[-1].world

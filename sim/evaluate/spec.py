@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any, Final
 
 from sim import planner_names
+from sim.actions import Add, Copy, MoveThings, Pause, Remove, Replace, SetCount, Swap, Trigger
 from sim.config import COUNTS, Config, ConfigError, Problem
 from sim.evaluate.cases import MAX_CASES, SENSING, Case, config_under
 from sim.generation import GenerationError, generate
@@ -15,6 +16,9 @@ from sim.oracle.lower_bounds import can_arrive
 from sim.randomness import MAX_SEED
 from sim.rules.compiled import COMPILED_KINDS, compiled_rules
 from sim.search.reactive import ImpatientError
+from sim.session.edits import apply
+from sim.session.errors import EditError
+from sim.session.rule_values import rule_of, rule_values
 from sim.session.saved_config import saved_config
 from sim.state import SimState
 from sim.types import Outcome
@@ -34,6 +38,9 @@ LIVE_PART: Final = 20
 """Episodes of a part where a planner is asked one decision at a time."""
 DETAILED: Final = 200
 """Episodes, from the first one, that are followed tick by tick for how near things came."""
+IN_AN_EPISODE: Final = (Add, Remove, SetCount, MoveThings, Swap, Replace, Copy, Pause)
+"""What rules may do in an evaluation; a pause does nothing there. Others would begin another road, or change
+what is compared."""
 STATES: Final = 20_000
 """States that are searched to prove a road, before it counts as not known."""
 
@@ -70,6 +77,8 @@ class Evaluation:
     seed: int = 0
     world: str | None = None
     cases: tuple[Case, ...] = ()
+    rules: tuple[Trigger, ...] = ()
+    """rules that stand from the beginning of every episode (`sim.session.triggers`)"""
 
     def __post_init__(self) -> None:
         names = tuple(dict.fromkeys(planner_names.canonical(name) for name in self.planners))
@@ -92,6 +101,8 @@ class Evaluation:
             except ConfigError as error:
                 yield from (Problem("planners", each.code, **each.facts) for each in error.problems)
         yield from self._case_problems()
+        if not all(isinstance(action, IN_AN_EPISODE) for rule in self.rules for action in rule.then):
+            yield Problem("rules", "must_stay_on_the_road")
 
     def _case_problems(self) -> Iterator[Problem]:
         if len(self.cases) > MAX_CASES:
@@ -124,10 +135,15 @@ class Evaluation:
         try:
             if self.world is None:
                 generate(self.config, 1)
-                return
+                if not self.rules:
+                    return
             state = self.start(0, self.planners[0])
+            if self.rules:
+                return  # what they do to the road is no part of a proof
             if can_arrive(state, STATES):
                 return
+        except EditError as error:
+            raise EvaluationError((Problem("rules", "cannot_be_done"),)) from error
         except (GenerationError, ImpatientError) as error:
             if isinstance(error, ImpatientError):
                 return
@@ -146,11 +162,14 @@ class Evaluation:
     @property
     def alike(self) -> bool:
         """Whether all episodes of a planner are the same: one road, and nothing on it is left to chance."""
-        return self.world is not None and self.config.certain
+        return self.world is not None and self.config.certain and not self.rules
 
     def start(self, index: int, planner: str) -> SimState:
         """How an episode begins. Raises `GenerationError`."""
-        return SimState.start(replace(self.config, seed=self.seed + index, planner=planner), self.road)
+        state = SimState.start(replace(self.config, seed=self.seed + index, planner=planner), self.road)
+        for rule in self.rules:
+            state = apply(state, rule).state
+        return state
 
     @property
     def part_size(self) -> int:
@@ -169,6 +188,7 @@ class Evaluation:
         config = self.config
         return (
             self.world is None
+            and not self.rules
             and config.layout is None
             and compiled_rules(config)
             and not any(getattr(config, name) for kind, name in COUNTS.items() if kind not in COMPILED_KINDS)
@@ -196,6 +216,7 @@ class Evaluation:
             "seed": self.seed,
             "world": self.world,
             "cases": [case.to_json() for case in self.cases],
+            "rules": [rule_values(rule) for rule in self.rules],
         }
 
     @staticmethod
@@ -206,4 +227,5 @@ class Evaluation:
         parts["planners"] = tuple(parts["planners"])
         parts["config"] = saved_config(parts["config"])
         parts["cases"] = tuple(map(Case.from_json, parts.get("cases", ())))
+        parts["rules"] = tuple(map(rule_of, parts.get("rules", ())))
         return Evaluation(**parts)

@@ -17,6 +17,8 @@ from pydantic import SecretStr
 
 from service.app import create_app
 from service.grammar import Language
+from service.scenarios import named_scenario
+from service.scenarios.begin import evaluation_of_scenario
 from service.settings import Settings
 from service.store import MemoryStore, StoreError
 from sim.config import Config
@@ -368,3 +370,23 @@ async def test_with_a_key_the_link_opens_its_report_and_nothing_else() -> None:
             assert (await client.get(f"{other}?ticket={ticket}")).status_code == 401, other
         for wrong in (ticket[:-1], f"9{ticket}", "", "x-y"):
             assert (await client.get(f"{report}?ticket={wrong}")).status_code == 401, wrong
+
+
+async def test_a_scenario_file_is_evaluated_and_its_flaws_are_named(running: Service) -> None:
+    file = named_scenario("growing-traffic").to_values()
+    made = await running.client.post(ALL, json={"file": file, "runs": 4, "planners": ["astar"], "seed": 2})
+    assert made.status_code == 202, made.text
+    found = await ended(running, made.headers["location"])
+    spec = evaluation_of_scenario(named_scenario("growing-traffic"), 4, ("astar",), 2)
+    assert found["result"] == json.loads(json.dumps(evaluate(spec)))
+    assert "with a rule" in found["title"]
+    for wrong, field in (
+        ({"file": {**file, "version": 2}}, "file.version"),
+        ({"file": {**file, "config": {"potholes": -1}}}, "file.config.potholes"),
+        ({"file": file, "text": "run 5 episodes"}, "text"),
+        ({"file": file, "runs": 0}, "runs"),
+        ({"file": {}}, "file.name"),
+    ):
+        answer = await running.client.post(ALL, json=wrong)
+        assert answer.status_code == 422, answer.text
+        assert field in [each["field"] for each in answer.json()["errors"]]

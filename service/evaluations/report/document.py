@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from service.actions import dump
 from service.evaluations.report.figures import (
     Behind,
     Cell,
@@ -22,6 +23,8 @@ from service.sessions.persistence.recording import FORMAT, VERSION
 from service.version import VERSION as PROGRAM
 from sim.evaluate.failures import MOST
 from sim.evaluate.spec import DETAILED, Evaluation
+
+__all__ = ["Cell", "Document", "Table", "episode_link", "make_document"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,8 +108,15 @@ def episode_link(spec: Evaluation, example: Mapping[str, Any], base: str = "") -
         "rules": config.rules,
         "name": None,
         "config": asdict(config),
-        "entries": [],
+        "entries": _rules(alone),
         "tick": example["tick"],
         "digest": example["digest"],
     }
     return f"{base}/{pack_recording(recording)}"
+
+
+def _rules(spec: Evaluation) -> list[dict[str, Any]]:
+    """The rules of every episode as an entry of a recording."""
+    if not spec.rules:
+        return []
+    return [{"sequence": 1, "tick": 0, "text": None, "actions": dump(spec.rules)}]

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Annotated, Any, Literal, cast
 
+import orjson
 from anyio import to_thread
 from fastapi import Body, Query, Request, Response
 
@@ -14,7 +15,7 @@ from service.contract import answers as schemas
 from service.contract import requests as bodies
 from service.evaluations.kinds import EVALUATION
 from service.evaluations.refuse import refuse_evaluation
-from service.evaluations.request import evaluation_of
+from service.evaluations.request import RUNS, evaluation_of
 from service.evaluations.start import job_spec
 from service.http import examples
 from service.http.content_type import JSON_ONLY
@@ -32,6 +33,7 @@ from service.narration import evaluation_words
 from service.problems import (
     Ambiguous,
     ContentTooLarge,
+    DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
@@ -47,13 +49,18 @@ from service.problems import (
 )
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
+from service.scenarios import ScenarioError, read_scenario
+from service.scenarios.begin import evaluation_of_scenario
 from service.sessions.session import Session
 from service.store import JobRecord
+from sim.config import ConfigError
 from sim.evaluate import Evaluation, EvaluationError
+from sim.generation import GenerationError
+from sim.session.errors import EditError
 
 router = api_router("evaluations")
 
-_ALONE = ("runs", "planners", "scenario", "config", "road", "vary")
+_ALONE = ("runs", "planners", "scenario", "config", "road", "vary", "file")
 """What a sentence says itself."""
 _REPORT_POLICY = {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
@@ -82,6 +89,7 @@ _FORMATS = {
             ContentTooLarge,
             UnsupportedMediaType,
             Invalid,
+            DoesNotFit,
             NotAvailable,
             NotUnderstood,
             UnknownSession,
@@ -220,6 +228,8 @@ async def _read_evaluation(
     here: Context, body: bodies.NewEvaluation, session: Session | None, language: str
 ) -> Evaluation:
     """The evaluation that is asked for. Raises a `ProblemError`."""
+    if body.file is not None:
+        return await to_thread.run_sync(_read_file, body, language)
     state = None if session is None else session.run
     if session is not None and (body.scenario or body.config):
         raise invalid([FieldProblem("session", "names the roads already; leave out scenario and config")])
@@ -253,3 +263,29 @@ async def _read_sentence(here: Context, text: str, session: Session | None, lang
             return action
     sentence = refusals(language).said("no_evaluation")
     raise NotUnderstood(sentence, errors=[FieldProblem("text", sentence)], understood=[text])
+
+
+_BESIDE_FILE = ("text", "scenario", "config", "vary", "session", "road")
+"""What a scenario file says itself."""
+
+
+def _read_file(body: bodies.NewEvaluation, language: str) -> Evaluation:
+    """The evaluation of a scenario file. Raises a `ProblemError`. For a thread: it may draw a road."""
+    twice = [name for name in _BESIDE_FILE if getattr(body, name) is not None]
+    if twice:
+        raise invalid(FieldProblem(name, "is said in the file already") for name in twice)
+    words = refusals(language)
+    try:
+        scenario = read_scenario(orjson.dumps(body.file).decode())
+        return evaluation_of_scenario(
+            scenario, RUNS if body.runs is None else body.runs, tuple(body.planners or ()), body.seed
+        )
+    except ScenarioError as error:
+        flaws = [FieldProblem(f"file.{each.field}".rstrip("."), each.message) for each in error.flaws]
+        raise invalid(flaws) from error
+    except EvaluationError as error:
+        raise refuse_evaluation(error, words) from error
+    except EditError as error:
+        raise DoesNotFit(words.edit(error), errors=[FieldProblem("file", words.edit(error))]) from error
+    except (ConfigError, GenerationError) as error:
+        raise invalid([FieldProblem("file", str(error))]) from error

@@ -769,6 +769,8 @@ export interface NewEvaluation {
   } | null;
   /** Values that are compared, such as `weather` of `clear` and `fog`: each combination is run from the same seeds, and all are compared with the first. */
   vary?: Varied | null;
+  /** A scenario file, as JSON (see `roadtalk scenario schema`). Beside it: runs, planners, seed, language. */
+  file?: { [key: string]: unknown } | null;
   /** Roads as in this session; alone or with a text, runs, planners. */
   session?: string | null;
   /** The session's own road from this moment on, in place of roads that are drawn. */
