@@ -33,6 +33,10 @@ COMMANDS: Final = {
         "service.cli.evaluate",
         "Run many episodes with one or several planners and report what came of them.",
     ),
+    "scenario": (
+        "service.cli.scenario",
+        "List, check, show, say, open, make and run scenario files.",
+    ),
     "replay": (
         "service.cli.replay",
         "Replay a recording and compare digests. Exits with 1 when they differ.",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 from urllib.parse import quote
 
@@ -282,6 +282,8 @@ def create_evaluation(
     config: Json | None,
     session: str | None,
     road: str | None,
+    file: Json | None,
+    vary: Mapping[str, Sequence[Any]] | None,
     seed: int | None,
     language: str | None,
 ) -> Call[answers.Evaluation]:
@@ -294,6 +296,8 @@ def create_evaluation(
         config=config,
         session=session,
         road=road,
+        file=file,
+        vary=vary,
         seed=seed,
         language=language,
     )

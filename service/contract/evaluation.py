@@ -54,8 +54,10 @@ class Evaluation(Answered):
     """What the roads are drawn from."""
     same_road: bool
     """Whether all episodes start from one road, that of the session it was asked of."""
+    conditions: tuple[Mapping[str, Any], ...]
+    """What is compared beside the planners, such as `{"weather": "fog"}`; empty where nothing is."""
     done: int
-    """Episodes that are done."""
+    """Episodes of each planner that are done, under all conditions together."""
     progress: Fraction
     """The share of the episodes that are done."""
     text: tuple[str, ...] | None

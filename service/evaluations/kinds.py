@@ -21,7 +21,7 @@ class EvaluationJobs:
 
     def total(self, spec: Spec) -> int:
         """See `JobKind.total`."""
-        return int(spec["episodes"])
+        return int(spec["episodes"]) * max(1, len(spec.get("cases", ())))
 
     def pieces(self, spec: Spec, parts: Parts) -> Sequence[Piece]:
         """See `JobKind.pieces`."""

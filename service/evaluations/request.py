@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Final
+from typing import Any, Final
 
 from service.actions import Evaluate
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
+from sim.evaluate.cases import cases_of, problems_of
 from sim.evaluate.spec import MAX_EPISODES, Evaluation, EvaluationError
 from sim.planner_names import PROMISED
 from sim.randomness import MAX_SEED
@@ -38,6 +39,9 @@ def evaluation_of(
             raise EvaluationError((Problem("road", "has_no_start"),))
         world = write(state.world)
     planners = action.planners or (config.planner,)
+    vary = _varied(action)
+    if problems := problems_of(vary):
+        raise EvaluationError(problems)
     first = config.seed if config.seed <= MAX_SEED - MAX_EPISODES else 0
     spec = Evaluation(
         planners=planners,
@@ -45,9 +49,16 @@ def evaluation_of(
         config=config,
         seed=first if seed is None else seed,
         world=world,
+        cases=cases_of(vary),
     )
     spec.check_road()
     return spec
+
+
+def _varied(action: Evaluate) -> dict[str, tuple[Any, ...]]:
+    """The values that are compared, by setting."""
+    values = {} if action.vary is None else asdict(action.vary)
+    return {name: tuple(each) for name, each in values.items() if each is not None}
 
 
 def unavailable_part(action: Evaluate) -> Problem | None:

@@ -10,7 +10,7 @@ from service.evaluations.kinds import EVALUATION
 from service.jobs import JobRunner
 from service.problems import NotAvailable
 from service.refusals import refusals
-from service.sessions.facts import JobAsked
+from service.sessions.facts import JobAsked, JobTold
 from sim.evaluate import Evaluation
 
 
@@ -25,6 +25,15 @@ async def start_evaluation(
         raise NotAvailable(refusals(language).session("no_jobs"))
     record = await jobs.start(EVALUATION, job_spec(asked.evaluation, language, session), language=language)
     return replace(asked, job=record.id)
+
+
+async def talk_of_evaluation(jobs: JobRunner | None, told: JobTold, session: str) -> JobTold:
+    """The fact with the session's latest evaluation, cancelled if that is wanted. Raises `NotSaved`."""
+    found = None if jobs is None else await jobs.latest_of(session)
+    cancelled = False
+    if jobs is not None and found is not None and told.want == "cancel":
+        cancelled = await jobs.cancel(found.id)
+    return replace(told, known=True, job=found, cancelled=cancelled)
 
 
 def job_spec(evaluation: Evaluation, language: str, session: str | None) -> Mapping[str, Any]:

@@ -21,6 +21,7 @@ from service.sessions.facts import (
     Dropped,
     Fact,
     JobAsked,
+    JobTold,
     PauseSet,
     Resolved,
     Stepped,
@@ -131,6 +132,8 @@ class Replies:
                 return self._say("shown" if shown else "hidden", view=name)
             case JobAsked():
                 return self._evaluations.started(fact)
+            case JobTold():
+                return self._evaluations.standing(fact)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():

@@ -16,6 +16,7 @@ from service.actions import (
     Chat,
     Drop,
     Evaluate,
+    EvaluationTalk,
     Forget,
     Goal,
     Hide,
@@ -43,6 +44,7 @@ from service.sessions.facts import (
     Dropped,
     Fact,
     JobAsked,
+    JobTold,
     PauseSet,
     Resolved,
     Stepped,
@@ -141,6 +143,13 @@ def _evaluate(transaction: Transaction, action: Evaluate, _sequence: int, positi
         return JobAsked(evaluation_of(action, state.config_of(), state))
     except EvaluationError as error:
         raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
+
+
+@handles(EvaluationTalk)
+def _talk_of_evaluation(
+    _transaction: Transaction, action: EvaluationTalk, _sequence: int, _position: int
+) -> JobTold:
+    return JobTold(action.want)
 
 
 @handles(Style)

@@ -68,6 +68,8 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "replace", "kind": "barrier", "count": 1, "by": "vehicle"},
     {"do": "copy", "kind": "barrier", "count": 1},
     {"do": "evaluate", "runs": 5},
+    {"do": "evaluation", "want": "progress"},
+    {"do": "evaluation", "want": "cancel"},
     {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
     {"do": "set", "parameter": "weather", "value": "rain"},
     {"do": "set", "parameter": "time_of_day", "value": "night"},

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Annotated, Any, Literal, cast
 
+import orjson
 from anyio import to_thread
 from fastapi import Body, Query, Request, Response
 
@@ -14,7 +15,7 @@ from service.contract import answers as schemas
 from service.contract import requests as bodies
 from service.evaluations.kinds import EVALUATION
 from service.evaluations.refuse import refuse_evaluation
-from service.evaluations.request import evaluation_of
+from service.evaluations.request import RUNS, evaluation_of
 from service.evaluations.start import job_spec
 from service.http import examples
 from service.http.content_type import JSON_ONLY
@@ -24,6 +25,7 @@ from service.http.evaluation_json import evaluation_json, evaluation_links, lang
 from service.http.pagination import After, Limit, cursor, page_json
 from service.http.responses import json_response
 from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.routes.create_session import described_config
 from service.http.validation import invalid
 from service.jobs import JobState
@@ -31,6 +33,7 @@ from service.narration import evaluation_words
 from service.problems import (
     Ambiguous,
     ContentTooLarge,
+    DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
@@ -46,18 +49,24 @@ from service.problems import (
 )
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
+from service.scenarios import ScenarioError, read_scenario
+from service.scenarios.begin import evaluation_of_scenario
 from service.sessions.session import Session
 from service.store import JobRecord
+from sim.config import ConfigError
 from sim.evaluate import Evaluation, EvaluationError
+from sim.generation import GenerationError
+from sim.session.errors import EditError
 
 router = api_router("evaluations")
 
-_ALONE = ("runs", "planners", "scenario", "config", "road")
+_ALONE = ("runs", "planners", "scenario", "config", "road", "vary", "file")
 """What a sentence says itself."""
 _REPORT_POLICY = {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
 }
 """A report holds its own styles, and loads nothing."""
+_TICKET = "Opens it without a key; part of `links.report`, for a day."
 _LOCATION = {"headers": {"Location": {"description": "Where it is.", "schema": {"type": "string"}}}}
 _FORMATS = {
     "html": "text/html; charset=utf-8",
@@ -80,6 +89,7 @@ _FORMATS = {
             ContentTooLarge,
             UnsupportedMediaType,
             Invalid,
+            DoesNotFit,
             NotAvailable,
             NotUnderstood,
             UnknownSession,
@@ -104,7 +114,8 @@ async def create_evaluation(
     record = await here.jobs.start(
         EVALUATION, job_spec(spec, language, None if session is None else session.id), language=language
     )
-    return json_response(evaluation_json(record), 202, {"Location": evaluation_links(record.id)["self"]})
+    where = {"Location": evaluation_links(record.id)["self"]}
+    return json_response(evaluation_json(record, here.guard.link_tickets), 202, where)
 
 
 @router.get(
@@ -127,7 +138,7 @@ async def list_evaluations(here: Here, after: After = None, limit: Limit = 50) -
 )
 async def read_evaluation(evaluation_id: str, here: Here) -> Response:
     """How far it is, and what came of it."""
-    return json_response(evaluation_json(await here.jobs.get(evaluation_id)))
+    return json_response(evaluation_json(await here.jobs.get(evaluation_id), here.guard.link_tickets))
 
 
 @router.delete(
@@ -161,11 +172,13 @@ async def delete_evaluation(evaluation_id: str, here: Here) -> Response:
         **problem_responses(UnknownJob, Invalid, NotFinished, NotSaved),
     },
 )
+@policy(link=True)
 async def read_report(
     evaluation_id: str,
     here: Here,
     request: Request,
     format: Annotated[Literal["html", "markdown", "json", "csv"], Query()] = "html",
+    ticket: Annotated[str | None, Query(max_length=100, description=_TICKET)] = None,  # noqa: ARG001
 ) -> Response:
     """In plain language first, then plots and tables; `csv` has a line for each episode and planner.
 
@@ -215,6 +228,8 @@ async def _read_evaluation(
     here: Context, body: bodies.NewEvaluation, session: Session | None, language: str
 ) -> Evaluation:
     """The evaluation that is asked for. Raises a `ProblemError`."""
+    if body.file is not None:
+        return await to_thread.run_sync(_read_file, body, language)
     state = None if session is None else session.run
     if session is not None and (body.scenario or body.config):
         raise invalid([FieldProblem("session", "names the roads already; leave out scenario and config")])
@@ -227,7 +242,7 @@ async def _read_evaluation(
         action = await _read_sentence(here, body.text, session, language)
     else:
         planners = None if body.planners is None else tuple(body.planners)
-        action = Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road)
+        action = Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road, vary=body.vary)
     if state is None:
         parts = {"seed": 0, **(body.config or {})}
         asked = bodies.NewSession.model_validate({"scenario": body.scenario, "config": parts})
@@ -248,3 +263,29 @@ async def _read_sentence(here: Context, text: str, session: Session | None, lang
             return action
     sentence = refusals(language).said("no_evaluation")
     raise NotUnderstood(sentence, errors=[FieldProblem("text", sentence)], understood=[text])
+
+
+_BESIDE_FILE = ("text", "scenario", "config", "vary", "session", "road")
+"""What a scenario file says itself."""
+
+
+def _read_file(body: bodies.NewEvaluation, language: str) -> Evaluation:
+    """The evaluation of a scenario file. Raises a `ProblemError`. For a thread: it may draw a road."""
+    twice = [name for name in _BESIDE_FILE if getattr(body, name) is not None]
+    if twice:
+        raise invalid(FieldProblem(name, "is said in the file already") for name in twice)
+    words = refusals(language)
+    try:
+        scenario = read_scenario(orjson.dumps(body.file).decode())
+        return evaluation_of_scenario(
+            scenario, RUNS if body.runs is None else body.runs, tuple(body.planners or ()), body.seed
+        )
+    except ScenarioError as error:
+        flaws = [FieldProblem(f"file.{each.field}".rstrip("."), each.message) for each in error.flaws]
+        raise invalid(flaws) from error
+    except EvaluationError as error:
+        raise refuse_evaluation(error, words) from error
+    except EditError as error:
+        raise DoesNotFit(words.edit(error), errors=[FieldProblem("file", words.edit(error))]) from error
+    except (ConfigError, GenerationError) as error:
+        raise invalid([FieldProblem("file", str(error))]) from error

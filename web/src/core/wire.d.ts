@@ -400,6 +400,7 @@ export interface Evaluate {
   planners?: ("rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative")[] | null;
   scenario?: ScenarioParts | null;
   road?: "this" | null;
+  vary?: Varied | null;
 }
 
 /** An evaluation as it stands. */
@@ -418,7 +419,9 @@ export interface Evaluation {
   config: { [key: string]: unknown };
   /** Whether all episodes start from one road, that of the session it was asked of. */
   same_road: boolean;
-  /** Episodes that are done. */
+  /** What is compared beside the planners, such as `{"weather": "fog"}`; empty where nothing is. */
+  conditions: ({ [key: string]: unknown })[];
+  /** Episodes of each planner that are done, under all conditions together. */
   done: number;
   /** The share of the episodes that are done. */
   progress: number;
@@ -448,6 +451,12 @@ export interface EvaluationSummary {
   /** The share of the episodes that are done. */
   progress: number;
   links: { [key: string]: string };
+}
+
+/** How the session's latest evaluation stands, or its end before it is done. */
+export interface EvaluationTalk {
+  do: "evaluation";
+  want: "progress" | "cancel";
 }
 
 /** Lines of the log, oldest first. */
@@ -762,6 +771,10 @@ export interface NewEvaluation {
     solvable?: boolean;
     seed?: number;
   } | null;
+  /** Values that are compared, such as `weather` of `clear` and `fog`: each combination is run from the same seeds, and all are compared with the first. */
+  vary?: Varied | null;
+  /** A scenario file, as JSON (see `roadtalk scenario schema`). Beside it: runs, planners, seed, language. */
+  file?: { [key: string]: unknown } | null;
   /** Roads as in this session; alone or with a text, runs, planners. */
   session?: string | null;
   /** The session's own road from this moment on, in place of roads that are drawn. */
@@ -1585,6 +1598,18 @@ export interface UnsubscribedMessage {
   type: "unsubscribed";
 }
 
+/** Values that are compared: an evaluation runs under each combination of them, from the same seeds. */
+export interface Varied {
+  weather?: ("clear" | "rain" | "fog" | "snow")[] | null;
+  time_of_day?: ("day" | "dusk" | "night" | "dawn")[] | null;
+  sensor?: ("perfect" | "camera" | "lidar" | "radar" | "fusion")[] | null;
+  traffic?: ("none" | "light" | "normal" | "heavy")[] | null;
+  potholes?: number[] | null;
+  vehicles?: number[] | null;
+  barriers?: number[] | null;
+  pedestrians?: number[] | null;
+}
+
 /** An ego: a vehicle that a planner or a person drives. Other vehicles are movers. */
 export interface Vehicle {
   id: string;
@@ -1627,4 +1652,4 @@ export interface Which {
 }
 
 /** One action of the language contract. */
-export type Action = Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Trigger | Cancel | Goal | Style | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Chat | Evaluate | FindWorst | Advise | Save | Load | Record | Teach | Forget | Drop;
+export type Action = Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Trigger | Cancel | Goal | Style | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Chat | Evaluate | EvaluationTalk | FindWorst | Advise | Save | Load | Record | Teach | Forget | Drop;
