@@ -236,7 +236,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         gathers=True,
     ),
     FindWorst: ActionTraits(
-        offered=False,
+        changes_session=False,
         separates_settings=True,
         model=ModelUse.CONFIRMED,
         what_if=WhatIf.NO_EFFECT,

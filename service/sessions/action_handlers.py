@@ -16,6 +16,7 @@ from service.actions import (
     Chat,
     Drop,
     Evaluate,
+    FindWorst,
     Forget,
     Goal,
     Hide,
@@ -33,7 +34,7 @@ from service.actions import (
 )
 from service.actions.table import sets_playback_speed, types_where
 from service.evaluations.refuse import refuse_evaluation
-from service.evaluations.request import evaluation_of
+from service.evaluations.request import evaluation_of, falsification_of
 from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable
 from service.sessions.bookmarks import MAX_BOOKMARKS, Bookmark, Bookmarked, Jumped, unknown_bookmark
 from service.sessions.facts import (
@@ -139,6 +140,14 @@ def _evaluate(transaction: Transaction, action: Evaluate, _sequence: int, positi
     try:
         state = transaction.timeline.state
         return JobAsked(evaluation_of(action, state.config_of(), state))
+    except EvaluationError as error:
+        raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
+
+
+@handles(FindWorst)
+def _find_worst(transaction: Transaction, action: FindWorst, _sequence: int, position: int) -> JobAsked:
+    try:
+        return JobAsked(falsification_of(action, transaction.timeline.state.config_of()))
     except EvaluationError as error:
         raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
 

@@ -12,7 +12,6 @@ from dataclasses import asdict, dataclass
 from typing import Any, Final
 
 from sim.config import Config, ConfigError
-from sim.evaluate.failures import BEFORE, Pattern, failure_pattern
 from sim.falsify.world import drive, way_through
 from sim.oracle.other_egos import arrives
 from sim.planner_names import canonical
@@ -28,8 +27,8 @@ _NAME: Final = re.compile(r"[a-z0-9_-]{1,80}")
 _KEYS: Final = frozenset(
     ("format", "version", "name", "config", "world", "outcome", "ticks", "digest", "way", "why")
 )
-LAST_TICKS: Final = 8
-"""Ticks before the end of a stuck episode at which it is worth looking."""
+LAST_TICKS: Final = {Outcome.STUCK: 8, Outcome.CRASH: 4}
+"""Ticks before the end at which it is worth looking."""
 
 
 class CaseError(ValueError):
@@ -71,7 +70,7 @@ class Case:
     @property
     def tick(self) -> int:
         """The tick at which it is worth looking."""
-        return max(0, self.ticks - (LAST_TICKS if self.outcome is Outcome.STUCK else BEFORE))
+        return max(0, self.ticks - LAST_TICKS[self.outcome])
 
     def to_json(self) -> dict[str, Any]:
         """As JSON values: the case's file."""
@@ -146,15 +145,9 @@ def case_of(start: SimState) -> Case | None:
         return None
     return Case(
         config=start.config,
-        world=start.world,
+        world=read(write(start.world)),  # as it is in a file
         outcome=end.outcome,
         ticks=end.tick,
         digest=end.digest(),
         way=way,
     )
-
-
-def pattern_of(case: Case) -> tuple[Pattern | None, str | None]:
-    """How the planner fails, and the kind of thing before or in which it does."""
-    states = drive(case.start)
-    return failure_pattern(states[-1], list(states[-1].ego().record.move_list()))

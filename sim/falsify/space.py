@@ -24,8 +24,9 @@ FIXED_OTHER: Final = 0.10
 MOVING_MOST: Final = {Kind.VEHICLE: 1.2}
 """Most movers of a kind in each row; `MOVING_OTHER` of the others."""
 MOVING_OTHER: Final = 0.4
-FULLEST: Final = 0.8
-"""Largest share of the free cells that all things together take."""
+FULLEST: Final = 0.25
+"""Largest share of the free cells of a layout that things take: a fuller one is seldom drivable, and is drawn
+again and again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +48,9 @@ def config_at(base: Config, point: Point, seed: int) -> Config | None:
     }
     if has_barriers(layout):
         counts[COUNTS[Kind.BARRIER]] = 0
-    room = int(FULLEST * min_free_cells(layout, base.columns, base.rows))
+    room = min_free_cells(layout, base.columns, base.rows)
+    if layout is not None:
+        room = int(FULLEST * room)
     if (wanted := sum(counts.values())) > room:
         counts = {name: count * room // wanted for name, count in counts.items()}
     try:

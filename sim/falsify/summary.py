@@ -6,12 +6,15 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
-from sim.falsify.case import Case, pattern_of
+from sim.evaluate.failures import failure_pattern
+from sim.falsify.case import Case, replay
 from sim.falsify.space import KINDS_SEARCHED, LAYOUTS
 from sim.falsify.spec import Falsification
 from sim.falsify.stages import CASES, Parts, SearchPiece, pieces, unpack
-from sim.falsify.world import Finding, Looked
+from sim.falsify.world import Finding, Looked, drive
+from sim.planner_names import BUILT_IN
 from sim.statistics import wilson
+from sim.types import Outcome
 
 VERSION: Final = 1
 """Of the form of a result."""
@@ -30,7 +33,7 @@ def summarize(spec: Falsification, parts: Parts) -> dict[str, Any]:
     directed = seen[len(random) :]
     counts = {finding.value: sum(each.finding is finding for each in seen) for finding in Finding}
     found = [json.loads(parts[f"case:{number}"]) for number in range(CASES)]
-    cases, given_up = _cases(found)
+    cases, given_up = _cases(spec, found)
     return {
         "version": VERSION,
         "planner": spec.planner,
@@ -67,7 +70,9 @@ def _generation(looked: Sequence[Looked]) -> dict[str, Any]:
     return {"failed": _share(looked), "levels": levels, "layouts": layouts}
 
 
-def _cases(found: Sequence[Mapping[str, Any] | None]) -> tuple[list[dict[str, Any]], int]:
+def _cases(
+    spec: Falsification, found: Sequence[Mapping[str, Any] | None]
+) -> tuple[list[dict[str, Any]], int]:
     """Cases with how they fail, each world once, and how many failures no 1-minimal world was found for."""
     cases: dict[str, dict[str, Any]] = {}
     given_up = 0
@@ -78,23 +83,28 @@ def _cases(found: Sequence[Mapping[str, Any] | None]) -> tuple[list[dict[str, An
             given_up += 1
             continue
         case = Case.from_json(each["case"])
-        pattern, thing = pattern_of(case)
-        cases.setdefault(
-            case.world.digest(),
-            {
-                "index": each["index"],
-                "seed": case.config.seed,
-                "outcome": case.outcome.value,
-                "ticks": case.ticks,
-                "tick": case.tick,
-                "least": len(case.way),
-                "things": list(case.things),
-                "things_before": each["things"],
-                "pattern": pattern,
-                "thing": thing,
-                "case": each["case"],
-            },
-        )
+        if case.world.digest() in cases:
+            continue
+        states = drive(case.start)
+        pattern, thing = failure_pattern(states[-1], list(states[-1].ego().record.move_list()))
+        cases[case.world.digest()] = {
+            "index": each["index"],
+            "seed": case.config.seed,
+            "outcome": case.outcome.value,
+            "ticks": case.ticks,
+            "tick": case.tick,
+            "least": len(case.way),
+            "things": list(case.things),
+            "things_before": each["things"],
+            "pattern": pattern,
+            "thing": thing,
+            "arrive": [
+                name
+                for name in BUILT_IN
+                if name != spec.planner and replay(case, name).outcome is Outcome.SUCCESS
+            ],
+            "case": each["case"],
+        }
     return sorted(cases.values(), key=lambda each: (len(each["things"]), each["index"])), given_up
 
 
