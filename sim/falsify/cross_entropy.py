@@ -1,9 +1,9 @@
 """The cross-entropy method over the space of scenarios.
 
 Each generation draws points from a distribution, and the next distribution is fitted to the best of them
-(the elite): those at or above the 90 % quantile of the score, or every failure once there are more. A share
-of each generation is still drawn uniformly, and the spread never falls below a floor, so that the search does
-not lose sight of other ways to fail.
+(the elite): the tenth with the highest scores, or every failure once there are more. A share of each
+generation is still drawn uniformly, and the spread never falls below a floor, so that the search does not
+lose sight of other ways to fail.
 
 Sources: De Boer, Kroese, Mannor & Rubinstein, "A tutorial on the cross-entropy method", Annals of Operations
 Research, 2005; for falsification: Sankaranarayanan & Fainekos, "Falsification of temporal properties of
@@ -64,9 +64,9 @@ def fit(former: Distribution, points: Sequence[Point], scores: Sequence[float], 
     """The next distribution. `top`: the score of a failure, above which nothing is better."""
     if not points:
         return former
-    cut = sorted(scores, reverse=True)[max(0, round(ELITE * len(scores)) - 1)]
-    cut = min(top, cut)
-    elite = [point for point, score in zip(points, scores, strict=True) if score >= cut]
+    ranked = sorted(range(len(points)), key=lambda place: -scores[place])
+    best = max(1, round(ELITE * len(points)), sum(score >= top for score in scores))
+    elite = [points[place] for place in ranked[:best]]
     means, spreads = [], []
     for place, (mean, spread) in enumerate(zip(former.means, former.spreads, strict=True)):
         levels = [point.levels[place] for point in elite]
