@@ -80,7 +80,7 @@ def _here(
 
 def _read(text: str, seed: int, language: str) -> Evaluation:
     """The evaluation that a sentence asks for; ends the command with why there is none."""
-    from service.actions import Evaluate
+    from service.actions import Evaluate, FindWorst
     from service.grammar import Language
     from service.grammar.parse_types import Understood
 
@@ -96,6 +96,8 @@ def _read(text: str, seed: int, language: str) -> Evaluation:
             pass
         case (Evaluate(),):
             fail(words.said("no_road_here"))
+        case (FindWorst(),):
+            fail(words.said("search_here"))
         case _:
             fail(words.said("no_evaluation"))
     try:
