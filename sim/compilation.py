@@ -21,6 +21,7 @@ from sim.compiled_files import cache_folder
 
 config: Any = numba.config
 
+
 @contextmanager
 def _cached_in(folder: Path) -> Iterator[None]:
     before = config.CACHE_DIR

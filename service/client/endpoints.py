@@ -276,6 +276,7 @@ def run_counterfactual(
 
 def create_evaluation(
     text: str | None,
+    find: str | None,
     runs: int | None,
     planners: Sequence[str] | None,
     scenario: str | None,
@@ -290,6 +291,7 @@ def create_evaluation(
     """Starts many episodes in the background."""
     body = _without_none(
         text=text,
+        find=find,
         runs=runs,
         planners=None if planners is None else [*planners],
         scenario=scenario,

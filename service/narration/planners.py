@@ -12,14 +12,17 @@ from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
 from service.narration.futures_told import CONTRARY, end_told, share_told, yes_and_no
 from service.narration.inflection import capital
+from service.narration.options import Options
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.foresight import Foresight
 from sim.explain.own_move import OwnMove, own_move
 from sim.explain.planner_character import Character, character_of
-from sim.explain.planners import PlannerDrive, PlannersHere, planner_of, planners_here
+from sim.explain.planners import Parting, PlannerDrive, PlannersHere, planner_of, planners_here
+from sim.plan import Decision
 from sim.state import SimState
+from sim.types import Move
 
 JUDGED: Final = "judged"
 """What a question supposes that asks whether a move was good."""
@@ -31,6 +34,7 @@ class Planners:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._options = Options(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
@@ -51,11 +55,18 @@ class Planners:
             first = yes_and_no(self._sayings, asked) if judged else {}
             return self._own(found, first), own_move_json(found)
         here = planners_here(timeline, ask.planners)
-        return self._here(here, best=ask.what == "compare"), planners_json(here)
+        parting = here.decided(here.others[0]) if len(here.others) == 1 else None
+        told = self._here(here, parting, best=ask.what == "compare")
+        if parting is None:
+            return told, planners_json(here)
+        texts = self._options.texts(parting.own), self._options.texts(parting.other)
+        return told, planners_json(here, parting, texts)
 
-    def _here(self, found: PlannersHere, *, best: bool) -> str:
+    def _here(self, found: PlannersHere, parting: Parting | None, *, best: bool) -> str:
         """One line for each way to drive; where they are too many words, one for each end."""
         parts = self._lines(found, best=best, briefly=False)
+        if parting is not None:
+            parts.append(Part(1, self._parting(parting)))
         if sum(len(part.text.split()) for part in parts) > MOST_WORDS:
             parts = self._lines(found, best=best, briefly=True)
         return within(parts, None)
@@ -86,6 +97,23 @@ class Planners:
         what = "" if briefly else self._what(found, first, own=own)
         key = "line_brief" if briefly else "line"
         return capital(self._say(key, planners=names, what=what, end=self._end(first.foresight)))
+
+    def _parting(self, parting: Parting) -> str:
+        """Where two planners part, and what each makes of the other's move."""
+        told = {
+            "own": self._sayings.planner(parting.own.planner),
+            "own_move": self._sayings.move(parting.own.move, "name"),
+            "own_of_other": self._option(parting.own, parting.other.move),
+            "other": self._sayings.planner(parting.other.planner),
+            "other_move": self._sayings.move(parting.other.move, "name"),
+            "other_of_own": self._option(parting.other, parting.own.move),
+        }
+        return self._say("parting", tick=parting.tick, **told)
+
+    def _option(self, decision: Decision, move: Move) -> str:
+        """What a decision says of a move."""
+        texts = zip(decision.options, self._options.texts(decision), strict=True)
+        return next(text for option, text in texts if option.move is move)
 
     def _what(self, found: PlannersHere, drive: PlannerDrive, *, own: bool) -> str:
         path, ahead = drive.foresight.story.path, 0 if own else found.parting(drive)

@@ -20,7 +20,6 @@ import numpy as np
 
 from sim.batch.backward_dp import BUFFER, FAR, TICK, around, cost_of_way, sweep, totals_of_way
 from sim.batch.compiled import free_steps, max_ticks
-from sim.compilation import compiled
 from sim.batch.reachability import (
     ALL_FIXED,
     BLOCKED,
@@ -41,6 +40,7 @@ from sim.batch.reachability import (
     search,
     someone_brakes,
 )
+from sim.compilation import compiled
 
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
