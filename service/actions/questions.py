@@ -42,8 +42,11 @@ OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_
 """
 BlameName = Literal["fault", "too_late", "foreseen", "avoidable"]
 """What about a crash is asked."""
-PlannersName = Literal["here", "compare", "character", "own"]
-"""What about planners is asked; `own`: what this session's would have done where a person drove."""
+PlannersName = Literal["here", "compare", "character", "own", "method"]
+"""What about planners is asked.
+
+`own`: what this session's would have done where a person drove; `method`: by what it chooses.
+"""
 HistoryName = Literal[
     "closest_call", "summary", "since", "between", "seen", "riskiest", "similar", "choices", "losses"
 ]
@@ -203,6 +206,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     ),
     "character": (frozenset(), frozenset(("planner",))),
     "own": (frozenset(), frozenset(("tick",))),
+    "method": (frozenset(), frozenset(("planner",))),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""

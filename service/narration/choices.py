@@ -9,6 +9,7 @@ from service.contract.encode.choices import choices_json, losses_json, matters_j
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
+from service.narration.futures_told import CONTRARY, yes_and_no
 from service.narration.naming import Naming
 from service.narration.options import Options
 from service.narration.sayings import Sayings
@@ -118,8 +119,9 @@ class Choices:
     def _lost(self, found: Losses, asked: Asked) -> str:
         """What the moves of the episode have cost, the dearest ones first."""
         state = asked.timeline.state
-        word = self._sayings.say("ahead", "answer", "agree" if found.found else "disagree")
-        first = self._say("losses", "first", word=word) if asked.supposes == JUDGED else ""
+        judged = asked.supposes in (JUDGED, CONTRARY)
+        word = yes_and_no(self._sayings, asked)["yes" if found.found else "no"]
+        first = self._say("losses", "first", word=word) if judged else ""
         unknown = self._say("losses", "unknown", count=found.unknown) if found.unknown else ""
         if not found.found:
             key = "none" if found.judged else "no_way"

@@ -44,6 +44,7 @@ def _ends_in(outcome: Outcome) -> Callable[[PlannersHere, PlannerDrive], bool | 
 
 _AGREES: Final[Mapping[str | None, Callable[[PlannersHere, PlannerDrive], bool | None]]] = {
     "same": _same,
+    "differs": lambda found, drive: None if (same := _same(found, drive)) is None else not same,
     "stays": lambda _found, drive: None if drive.first is None else drive.first is Move.STAY,
     "crashes": _ends_in(Outcome.CRASH),
     "arrives": _ends_in(Outcome.SUCCESS),
@@ -80,6 +81,8 @@ class Planners:
         ask, timeline = asked.ask, asked.timeline
         if ask.what == "character":
             return self._character(ask, timeline.state)
+        if ask.what == "method":
+            return self._method(ask, timeline.state)
         if ask.what == "own":
             found = own_move(timeline, ask.tick)
             judged = asked.supposes in (JUDGED, CONTRARY)
@@ -170,6 +173,14 @@ class Planners:
             return self._say("best", "none")
         names = [self._sayings.planner(drive.planner) for drive in found.best]
         return self._say("best", "one", planners=self._sayings.joined(names))
+
+    def _method(self, ask: Ask, state: SimState) -> tuple[str, Json]:
+        """By what a planner chooses its moves, as the glossary has it."""
+        name = planner_of(state) if ask.planner is None else ask.planner
+        text = self._sayings.value("glossary", "terms", name, "text")
+        if text is None:
+            return self._say("no_method", planner=self._sayings.planner(name)), {"planner": name}
+        return str(text), {"planner": name}
 
     def _character(self, ask: Ask, state: SimState) -> tuple[str, Json]:
         name = planner_of(state) if ask.planner is None else ask.planner
