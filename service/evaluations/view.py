@@ -57,9 +57,10 @@ class _EvaluationView:
         self._words = evaluation_words(language)
         self._language = language
         self.title = self._words.title(self._spec)
-        self.runs, self.planners = self._spec.episodes, self._spec.planners
+        self.runs = self._spec.episodes
+        self.planners: Sequence[str] = self._spec.planners
         self.seed, self.same_road = self._spec.seed, self._spec.world is not None
-        self.conditions = [dict(case.said) for case in self._spec.cases]
+        self.conditions: Sequence[Mapping[str, Any]] = [dict(case.said) for case in self._spec.cases]
 
     def done(self, units: int) -> int:
         """See `JobView.done`."""
@@ -97,7 +98,8 @@ class _FalsificationView:
         self._words = falsification_words(language)
         self._language = language
         self.title = self._words.title(self._spec)
-        self.runs, self.planners, self.seed = self._spec.worlds, (self._spec.planner,), self._spec.seed
+        self.runs, self.seed = self._spec.worlds, self._spec.seed
+        self.planners: Sequence[str] = (self._spec.planner,)
 
     def done(self, units: int) -> int:
         """See `JobView.done`."""

@@ -19,22 +19,11 @@ from sim.explain import QuestionError
 from sim.explain.foresight import Foresight
 from sim.explain.own_move import OwnMove, own_move
 from sim.explain.planner_character import Character, character_of
-<<<<<<< HEAD
 from sim.explain.planners import Parting, PlannerDrive, PlannersHere, planner_of, planners_here
 from sim.plan import Decision
-||||||| 5595dbe8
-from sim.explain.planners import PlannerDrive, PlannersHere, planner_of, planners_here
-=======
-from sim.explain.planners import PlannerDrive, PlannersHere, planner_of, planners_here
 from sim.session.timeline import Timeline
->>>>>>> questions
 from sim.state import SimState
-<<<<<<< HEAD
-from sim.types import Move
-||||||| 5595dbe8
-=======
 from sim.types import Move, Outcome
->>>>>>> questions
 
 JUDGED: Final = "judged"
 """What a question supposes that asks whether a move was good."""
@@ -102,30 +91,17 @@ class Planners:
             judged = asked.supposes in (JUDGED, CONTRARY)
             first = yes_and_no(self._sayings, asked) if judged else {}
             return self._own(found, first), own_move_json(found)
-<<<<<<< HEAD
-        here = planners_here(timeline, ask.planners)
-        parting = here.decided(here.others[0]) if len(here.others) == 1 else None
-        told = self._here(here, parting, best=ask.what == "compare")
-        if parting is None:
-            return told, planners_json(here)
-        texts = self._options.texts(parting.own), self._options.texts(parting.other)
-        return told, planners_json(here, parting, texts)
-||||||| 5595dbe8
-        here = planners_here(timeline, ask.planners)
-        return self._here(here, best=ask.what == "compare"), planners_json(here)
-=======
         tick = _begins(ask, timeline)
         here = planners_here(timeline, ask.planners, tick=tick)
-        lines = self._here(here, best=ask.what == "compare", past=tick is not None)
+        parting = here.decided(here.others[0]) if len(here.others) == 1 else None
+        lines = self._here(here, parting, best=ask.what == "compare", past=tick is not None)
         told = [self._agreed(here, asked), self._from(tick, timeline), lines]
-        return " ".join(part for part in told if part), planners_json(here) | {"from_tick": tick}
->>>>>>> questions
+        values = planners_json(here)
+        if parting is not None:
+            texts = self._options.texts(parting.own), self._options.texts(parting.other)
+            values = planners_json(here, parting, texts)
+        return " ".join(part for part in told if part), values | {"from_tick": tick}
 
-<<<<<<< HEAD
-    def _here(self, found: PlannersHere, parting: Parting | None, *, best: bool) -> str:
-||||||| 5595dbe8
-    def _here(self, found: PlannersHere, *, best: bool) -> str:
-=======
     def _from(self, tick: int | None, timeline: Timeline) -> str:
         """From which past moment the planners were run."""
         if tick is None:
@@ -134,7 +110,7 @@ class Planners:
         return self._say("since", "start" if tick == start else "tick", tick=tick)
 
     def _agreed(self, found: PlannersHere, asked: Asked) -> str:
-        """Yes or no, where it was asked whether one planner does something; nothing where it cannot be said."""
+        """Yes or no, where it was asked whether one planner does something; empty where it cannot be said."""
         if len(found.others) != 1 or asked.supposes not in _AGREES:
             return ""
         drive = found.others[0]
@@ -142,25 +118,16 @@ class Planners:
         word = None if agrees is None else yes_and_no(self._sayings, asked)["yes" if agrees else "no"]
         return "" if word is None else self._say("judged", "good", yes=word)
 
-    def _here(self, found: PlannersHere, *, best: bool, past: bool = False) -> str:
->>>>>>> questions
+    def _here(self, found: PlannersHere, parting: Parting | None, *, best: bool, past: bool = False) -> str:
         """One line for each way to drive; where they are too many words, one for each end."""
-<<<<<<< HEAD
-        parts = self._lines(found, best=best, briefly=False)
+        parts = self._lines(found, best=best, briefly=False, past=past)
         if parting is not None:
             parts.append(Part(1, self._parting(parting)))
-||||||| 5595dbe8
-        parts = self._lines(found, best=best, briefly=False)
-=======
-        parts = self._lines(found, best=best, briefly=False, past=past)
->>>>>>> questions
         if sum(len(part.text.split()) for part in parts) > MOST_WORDS:
             parts = self._lines(found, best=best, briefly=True)
         return within(parts, None)
 
-    def _lines(
-        self, found: PlannersHere, *, best: bool, briefly: bool, past: bool = False
-    ) -> list[Part]:
+    def _lines(self, found: PlannersHere, *, best: bool, briefly: bool, past: bool = False) -> list[Part]:
         """The lines, those that were asked about first; `briefly`: only how each ends."""
         alike: dict[tuple[str, str], list[PlannerDrive]] = {}
         for drive in found.others:
@@ -176,9 +143,7 @@ class Planners:
             told.insert(0, self._say("missing", names=names))
         return [Part(0, text) for text in told]
 
-    def _line(
-        self, found: PlannersHere, drives: Sequence[PlannerDrive], briefly: bool, past: bool
-    ) -> str:
+    def _line(self, found: PlannersHere, drives: Sequence[PlannerDrive], briefly: bool, past: bool) -> str:
         """What planners do that drive alike from here on, and what comes of it."""
         first = drives[0]
         names = self._sayings.joined([self._sayings.planner(drive.planner) for drive in drives])
@@ -189,7 +154,6 @@ class Planners:
         key = "line_brief" if briefly else "line"
         return capital(self._say(key, planners=names, what=what, end=self._end(first.foresight)))
 
-<<<<<<< HEAD
     def _parting(self, parting: Parting) -> str:
         """Where two planners part, and what each makes of the other's move."""
         told = {
@@ -207,12 +171,7 @@ class Planners:
         texts = zip(decision.options, self._options.texts(decision), strict=True)
         return next(text for option, text in texts if option.move is move)
 
-    def _what(self, found: PlannersHere, drive: PlannerDrive, *, own: bool) -> str:
-||||||| 5595dbe8
-    def _what(self, found: PlannersHere, drive: PlannerDrive, *, own: bool) -> str:
-=======
     def _what(self, found: PlannersHere, drive: PlannerDrive, *, own: bool, past: bool) -> str:
->>>>>>> questions
         path, ahead = drive.foresight.story.path, 0 if own else found.parting(drive)
         if ahead is None or ahead >= len(path):
             return self._say("what", "same")

@@ -51,7 +51,6 @@ from sim.actions import (
 from sim.config import Config
 from sim.evaluate import Evaluation
 from sim.events import EventType
-from sim.falsify import Falsification
 from sim.perceive import sensor_named
 from sim.plan import traits_of
 from sim.session.edits import Applied, Change
@@ -134,10 +133,10 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
-            case JobAsked(evaluation=Evaluation() as evaluation):
-                return self._evaluations.started(evaluation, fact.job)
-            case JobAsked(evaluation=Falsification() as search):
-                return self._falsifications.started(search, fact.job)
+            case JobAsked(evaluation=asked, job=job):
+                if isinstance(asked, Evaluation):
+                    return self._evaluations.started(asked, job)
+                return self._falsifications.started(asked, job)
             case JobTold():
                 return self._evaluations.standing(fact)
             case Chatted(kind=kind):

@@ -141,7 +141,7 @@ class _Told:
         return " ".join([self._say("closest", thing=self._near(things[0])), *self._met(things)])
 
     def on_side(self, side: str, kind: Kind | None) -> str:
-        """What is on one side, the nearest first, and what of it heads for the ego's lane in its row or the next."""
+        """What is on one side, the nearest first, and what of it heads for the ego's lane."""
         things = sorted(self._scene.of(kind), key=_far)
         if not things:
             noun = self._noun(kind, 2) if kind is not None else self._say("any_thing")
