@@ -12,8 +12,9 @@ from tests.support.service import Service
 async def test_a_question_about_a_detour_is_answered_and_told_in_detail(service: Service, seed: int) -> None:
     path = await service.session(seed=seed, paused=True)
     await service.client.post(f"{path}/step", json={"ticks": 9})
-    for text in ("why did you leave your lane?", "in more detail, please"):
-        answer = await service.client.post(f"{path}/commands", json={"text": text})
+    for asked in ({"about": "why", "what": "detour"}, {"about": "detail", "how": "longer"}):
+        actions = [{"do": "ask", **asked}]
+        answer = await service.client.post(f"{path}/actions", json={"actions": actions})
         assert answer.status_code == 200
         assert answer.json()["answer"]["text"]
 
