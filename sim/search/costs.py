@@ -70,6 +70,10 @@ SHIFTS: Final[dict[Preference, Weights]] = {
 """What each preference adds to every charge."""
 
 
+TICKS_ALONE: Final = Weights(tick=1, sideways=0, diagonal=0, stay=0, fixed=0, mover=0, buffer=0, doubt=0)
+"""Charges by which a way costs its ticks and nothing else."""
+
+
 def weights(config: Config) -> Weights:
     """The charges that a configuration asks for."""
     parts = (BALANCED[config.rules], *(SHIFTS[preference] for preference in config.preferences))

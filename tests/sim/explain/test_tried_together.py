@@ -24,7 +24,7 @@ from tests.support.sentence_judge import changes_reaching, edits_of
 pytestmark = pytest.mark.xdist_group("compiled")
 
 SEEDS = st.integers(0, 2**32 - 1)
-PLANNERS = st.sampled_from(["astar", "dijkstra"])
+PLANNERS = st.sampled_from(["astar", "dijkstra", "bfs"])
 
 
 @pytest.fixture(autouse=True)
@@ -96,7 +96,7 @@ def test_the_change_told_is_as_small_as_there_is(seed: int, planner: str) -> Non
         assert len(edits_of(told[0])) > 2
 
 
-@pytest.mark.parametrize("planner", ["astar", "dijkstra"])
+@pytest.mark.parametrize("planner", ["astar", "dijkstra", "bfs"])
 @pytest.mark.parametrize("seed", range(6))
 def test_on_a_default_road_everything_is_taken_away_by_itself(seed: int, planner: str) -> None:
     timeline = Timeline(Config(seed=seed, planner=planner))

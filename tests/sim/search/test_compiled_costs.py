@@ -83,7 +83,7 @@ def test_the_totals_are_those_of_every_search(
 
 
 @settings(max_examples=40)
-@given(st.integers(0, 2**32 - 1), st.sampled_from(["astar", "dijkstra"]), st.sampled_from([0.0, 0.5]))
+@given(st.integers(0, 2**32 - 1), st.sampled_from(["astar", "dijkstra", "bfs"]), st.sampled_from([0.0, 0.5]))
 def test_a_drive_is_the_same_with_them_and_without(seed: int, planner: str, courtesy: float) -> None:
     config = Config(
         seed=seed,
