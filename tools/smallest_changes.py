@@ -19,7 +19,7 @@ from sim.explain import why_not
 from sim.explain.effort import Effort
 from sim.session.timeline import Timeline
 from sim.types import Move, Outcome
-from tests.support.sentence_judge import changes_reaching, edits_of
+from tests.support.sentence_judge import changes_reaching
 
 PLANNERS = ("priority", "rules", "bfs", "dijkstra", "astar")
 MOST_EDITS = 3
@@ -55,9 +55,9 @@ def compared(timeline: Timeline, foil: Move, effort: Effort) -> tuple[str, str] 
         return None
     explanation = why_not(timeline, foil, effort=effort)
     told = [flip.change for flip in explanation.counterfactuals if flip.move is foil]
-    size = len(edits_of(told[0])) if told else None
+    size = len(told[0]) if told else None
     smallest = next(changes_reaching(state, foil, MOST_EDITS), None)
-    least = None if smallest is None else len(edits_of(smallest))
+    least = None if smallest is None else len(smallest)
     where = f"{state.config.planner} seed {state.config.seed} tick {state.world.tick} {foil}"
     both = f"{where}: {told} beside {smallest}"
     if size == least:

@@ -27,7 +27,7 @@ class Edit:
 
     @property
     def of_wishes(self) -> bool:
-        """Whether it changes wishes or settings; a change has at most one of these."""
+        """Whether it changes wishes or settings, and nothing on the road."""
         return is_factor(self.gone) or any(isinstance(action, Prefer) for action in self.actions)
 
 
