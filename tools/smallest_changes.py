@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from sim.config import Config
 from sim.explain import why_not
 from sim.explain.effort import Effort
+from sim.search.compiled_costs import load_compiled_costs
 from sim.session.timeline import Timeline
 from sim.types import Move, Outcome
 from tests.support.sentence_judge import changes_reaching
@@ -75,6 +76,7 @@ def main() -> int:
     parser.add_argument("--show", type=int, default=6)
     parser.add_argument("--effort", choices=[*Effort], default=Effort.USUAL)
     options = parser.parse_args()
+    load_compiled_costs(compile_now=True)
     draw, figures, shown = random.Random(options.seed), Counter[tuple[str, str]](), 0
     for planner in PLANNERS:
         for timeline in moments(options.decisions // len(PLANNERS), options.seed, planner):

@@ -34,7 +34,7 @@ def drives(planner: str, attentive: float) -> list[SimState]:
     ]
 
 
-@pytest.mark.parametrize(("planner", "attentive"), product(["astar", "bfs"], [0.0, 1.0]))
+@pytest.mark.parametrize(("planner", "attentive"), [*product(["astar", "bfs"], [0.0, 1.0])])
 def test_what_is_proved_comes(planner: str, attentive: float) -> None:
     proved = 0
     for state in drives(planner, attentive):
