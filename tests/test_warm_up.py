@@ -27,7 +27,7 @@ async def test_what_explanations_load_is_compiled_in_a_process_of_its_own(
     program = tmp_path / "python"
     program.write_text(f'#!/bin/sh\necho "$@" > {tmp_path}/asked\n', encoding="utf-8")
     program.chmod(0o700)
-    monkeypatch.setattr(warm_up.sys, "executable", str(program))
+    monkeypatch.setattr("service.warm_up.sys.executable", str(program))
     await warm_up._compile()
     assert (tmp_path / "asked").read_text(encoding="utf-8").split() == ["-m", "sim.search.compiled_costs"]
 
@@ -52,7 +52,7 @@ async def test_a_compiler_is_ended_with_the_service(monkeypatch: pytest.MonkeyPa
     async def begin(*_: object, **__: object) -> Compiling:
         return process
 
-    monkeypatch.setattr(warm_up.asyncio, "create_subprocess_exec", begin)
+    monkeypatch.setattr("service.warm_up.asyncio.create_subprocess_exec", begin)
     task = asyncio.create_task(warm_up._compile())
     await process.begun.wait()
     task.cancel()

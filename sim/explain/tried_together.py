@@ -54,7 +54,7 @@ class TogetherTried:
             fixed |= unlike.fixed
             barriers |= unlike.barriers
             potholes |= unlike.potholes
-        wishes = tuple(edit for edit in edits if edit.of_wishes)
+        wishes = tuple([edit for edit in edits if edit.of_wishes])
         charges = self._with_wishes(wishes) if wishes else self._usual
         return SeenOtherwise(Unlike(movers, fixed, barriers, potholes), charges)
 
