@@ -8,68 +8,18 @@ of the outermost function, and would go on using an old rule that had been compi
 
 from __future__ import annotations
 
-import os
-import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import cache
-from hashlib import blake2b
 from pathlib import Path
 from types import FunctionType
-from typing import Any, Final
+from typing import Any
 
 import numba
 
 from sim import randomness
+from sim.compiled_files import cache_folder
 
 config: Any = numba.config
-
-_SIM: Final = Path(__file__).parent
-_COMPILED_IN: Final = tuple(
-    _SIM / name
-    for name in (
-        "rules/ego_step.py",
-        "rules/mover_boards.py",
-        "rules/limits.py",
-        "rules/traffic.py",
-        "randomness.py",
-        "generation.py",
-        "types.py",
-        "compilation.py",
-        "perceive/belief.py",
-        "perceive/log_odds.py",
-        "perceive/look.py",
-        "perceive/occlusion.py",
-        "perceive/percept.py",
-    )
-)
-"""Sources outside the folders of kernels whose functions or constants are compiled."""
-_KERNELS: Final = ("batch", "perceive/kernel")
-_KEPT_VERSIONS: Final = 3
-
-
-@cache
-def cache_folder() -> Path | None:
-    """Where compiled code of exactly these sources is kept; None if nothing can be written."""
-    digest = blake2b(numba.__version__.encode(), digest_size=8)
-    kernels = [path for folder in _KERNELS for path in sorted((_SIM / folder).glob("*.py"))]
-    for source in (*_COMPILED_IN, *kernels):
-        digest.update(source.read_bytes())
-    home = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "roadtalk" / "compiled"
-    folder = Path(os.environ.get("NUMBA_CACHE_DIR") or home) / digest.hexdigest()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / ".used").touch()
-        _forget_old(folder.parent)
-    except OSError:
-        return None
-    return folder
-
-
-def _forget_old(folder: Path) -> None:
-    versions = sorted(folder.glob("*/.used"), key=lambda mark: mark.stat().st_mtime, reverse=True)
-    for mark in versions[_KEPT_VERSIONS:]:
-        shutil.rmtree(mark.parent, ignore_errors=True)
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from service.narration.evaluation import EvaluationWords
+from service.narration.falsification import FalsificationWords
 from service.narration.goals import Goals
 from service.narration.placing import how_many_now, place_of
 from service.narration.rearranged import told_rearranged
@@ -21,6 +22,7 @@ from service.sessions.facts import (
     Dropped,
     Fact,
     JobAsked,
+    JobTold,
     PauseSet,
     Resolved,
     Stepped,
@@ -47,6 +49,7 @@ from sim.actions import (
     Trigger,
 )
 from sim.config import Config
+from sim.evaluate import Evaluation
 from sim.events import EventType
 from sim.perceive import sensor_named
 from sim.plan import traits_of
@@ -71,6 +74,7 @@ class Replies:
         """`sayings`: the language's."""
         self._sayings = sayings
         self._evaluations = EvaluationWords(sayings)
+        self._falsifications = FalsificationWords(sayings)
         self._goals = Goals(sayings, self._scenario, self.done)
         self._rules = Rules(sayings)
 
@@ -129,8 +133,12 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
-            case JobAsked():
-                return self._evaluations.started(fact)
+            case JobAsked(evaluation=asked, job=job):
+                if isinstance(asked, Evaluation):
+                    return self._evaluations.started(asked, job)
+                return self._falsifications.started(asked, job)
+            case JobTold():
+                return self._evaluations.standing(fact)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():
