@@ -783,6 +783,12 @@ export interface NewFork {
   paused?: boolean | null;
 }
 
+/** What a session is called from now on. */
+export interface NewName {
+  /** Null takes the name away. */
+  name: string | null;
+}
+
 /** How a session begins. Everything may be left out; without a seed one is drawn and told. */
 export interface NewSession {
   name?: string | null;
