@@ -25,9 +25,16 @@ _COMPILED_IN: Final = tuple(
         "randomness.py",
         "generation.py",
         "types.py",
+        "compilation.py",
+        "perceive/belief.py",
+        "perceive/log_odds.py",
+        "perceive/look.py",
+        "perceive/occlusion.py",
+        "perceive/percept.py",
     )
 )
-"""Sources outside `sim.batch` whose functions or constants are compiled into it."""
+"""Sources outside the folders of kernels whose functions or constants are compiled."""
+_KERNELS: Final = ("batch", "perceive/kernel")
 _KEPT_VERSIONS: Final = 3
 
 
@@ -35,7 +42,8 @@ _KEPT_VERSIONS: Final = 3
 def cache_folder() -> Path | None:
     """Where compiled code of exactly these sources is kept; None if nothing can be written."""
     digest = blake2b(version("numba").encode(), digest_size=8)
-    for source in (*_COMPILED_IN, *sorted((_SIM / "batch").glob("*.py"))):
+    kernels = [path for folder in _KERNELS for path in sorted((_SIM / folder).glob("*.py"))]
+    for source in (*_COMPILED_IN, *kernels):
         digest.update(source.read_bytes())
     home = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "roadtalk" / "compiled"
     folder = Path(os.environ.get("NUMBA_CACHE_DIR") or home) / digest.hexdigest()

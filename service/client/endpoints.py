@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 from urllib.parse import quote
 
@@ -281,24 +281,30 @@ def run_counterfactual(
 
 def create_evaluation(
     text: str | None,
+    find: str | None,
     runs: int | None,
     planners: Sequence[str] | None,
     scenario: str | None,
     config: Json | None,
     session: str | None,
     road: str | None,
+    file: Json | None,
+    vary: Mapping[str, Sequence[Any]] | None,
     seed: int | None,
     language: str | None,
 ) -> Call[answers.Evaluation]:
     """Starts many episodes in the background."""
     body = _without_none(
         text=text,
+        find=find,
         runs=runs,
         planners=None if planners is None else [*planners],
         scenario=scenario,
         config=config,
         session=session,
         road=road,
+        file=file,
+        vary=vary,
         seed=seed,
         language=language,
     )

@@ -189,6 +189,10 @@ def _questions() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "history", "what": "seen", "tick": 5}
     yield {"do": "ask", "about": "history", "what": "riskiest"}
     yield {"do": "ask", "about": "history", "what": "similar", "count": 3}
+    yield {"do": "ask", "about": "history", "what": "choices"}
+    yield {"do": "ask", "about": "history", "what": "choices", "tick": 5}
+    yield {"do": "ask", "about": "history", "what": "choices", "ticks": 3}
+    yield {"do": "ask", "about": "history", "what": "losses"}
     yield {"do": "ask", "about": "why", "move": "left", "instead": "right"}
     for how in get_args(DetailName):
         yield {"do": "ask", "about": "detail", "how": how}
@@ -210,6 +214,10 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": about, "what": what, "tick": 12}
     for what in ("here", "compare"):
         yield {"do": "ask", "about": "planners", "what": what, "planners": ["astar", "dijkstra"]}
+        yield {"do": "ask", "about": "planners", "what": what, "tick": 12}
+        yield {"do": "ask", "about": "planners", "what": what, "planners": ["astar", "dijkstra"], "tick": 12}
+    yield {"do": "ask", "about": "planners", "what": "here", "ticks": 3}
+    yield {"do": "ask", "about": "planners", "what": "method", "planner": "astar"}
     yield {"do": "ask", "about": "planners", "what": "character", "planner": "astar"}
 
 
@@ -221,6 +229,9 @@ def _rest() -> Iterator[dict[str, Any]]:
         yield {"do": "chat", "kind": kind}
     yield {"do": "evaluate", "runs": 500, "planners": ["astar", "priority"]}
     yield {"do": "evaluate", "runs": 100, "planners": ["astar"], "road": "this"}
+    yield {"do": "evaluate", "runs": 100, "vary": {"weather": ["fog", "clear"]}}
+    for want in ("progress", "cancel"):
+        yield {"do": "evaluation", "want": want}
     yield {"do": "find_worst", "runs": 200, "planner": "astar"}
     for goal in get_args(GoalName):
         if goal != "separates":

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from contextlib import suppress
 
-from service.evaluations.start import start_evaluation
+from service.evaluations.start import start_evaluation, talk_of_evaluation
 from service.jobs import JobRunner
 from service.problems import NotSaved
-from service.sessions.facts import Fact, JobAsked
+from service.sessions.facts import Fact, JobAsked, JobTold
 
 
 async def start_jobs(
@@ -21,6 +21,8 @@ async def start_jobs(
     for fact in facts:
         if isinstance(fact, JobAsked):
             fact = await start_evaluation(jobs, fact, language, session_id)
+        elif isinstance(fact, JobTold):
+            fact = await talk_of_evaluation(jobs, fact, session_id)
         started.append(fact)
     return tuple(started)
 

@@ -22,7 +22,7 @@ from typing import Final
 
 import numpy as np
 
-from sim.batch.compiled import beside, compiled, max_ticks, steps_left
+from sim.batch.compiled import beside, max_ticks, steps_left
 from sim.batch.layout import CELL, EPISODE_TICK, LANES, OUTCOME, SWEPT
 from sim.batch.reachability import (
     ALL_FIXED,
@@ -44,6 +44,7 @@ from sim.batch.reachability import (
     someone_brakes,
     step_from,
 )
+from sim.compilation import compiled
 
 TICK, SIDEWAYS, DIAGONAL, WAITING, NEAR_FIXED, NEAR_MOVER, BUFFER = range(7)
 """Columns of a batch's table of charges (int64), as in `sim.search.costs.Weights`."""

@@ -19,7 +19,7 @@ from typing import Final
 import numpy as np
 
 from sim.batch.backward_dp import BUFFER, FAR, TICK, around, cost_of_way, sweep, totals_of_way
-from sim.batch.compiled import compiled, free_steps, max_ticks
+from sim.batch.compiled import free_steps, max_ticks
 from sim.batch.reachability import (
     ALL_FIXED,
     BLOCKED,
@@ -40,6 +40,7 @@ from sim.batch.reachability import (
     search,
     someone_brakes,
 )
+from sim.compilation import compiled
 
 _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
