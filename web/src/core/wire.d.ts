@@ -1491,6 +1491,11 @@ export interface Subscribe {
   view?: "road" | "schematic";
   fps?: number;
   side?: number;
+  theme?: "dark" | "light";
+  /** Bounding boxes around what moves. */
+  boxes?: boolean;
+  /** The strip of figures along the upper edge. */
+  figures?: boolean;
 }
 
 /** The pictures that follow as binary messages. */
