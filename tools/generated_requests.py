@@ -41,6 +41,7 @@ REFUSED: dict[tuple[str, str], tuple[tuple[int, ...], tuple[str, ...]]] = {
         ),
     ),
     ("DELETE", OWN): ((412, 422), (TAG,)),
+    ("PATCH", OWN): ((422,), ("422: what is no name",)),
     ("PATCH", f"{OWN}/config"): ((412, 422), (TAG, ROAD, "422: a part that needs another road")),
     ("POST", f"{OWN}/commands"): ((409, 412, 422), (TAG, WORDS, ROAD)),
     ("POST", f"{OWN}/actions"): ((412, 422), (TAG, ROAD)),

@@ -805,6 +805,12 @@ export interface NewFork {
   paused?: boolean | null;
 }
 
+/** What a session is called from now on. */
+export interface NewName {
+  /** Null takes the name away. */
+  name: string | null;
+}
+
 /** How a session begins. Everything may be left out; without a seed one is drawn and told. */
 export interface NewSession {
   name?: string | null;
@@ -1487,6 +1493,11 @@ export interface Subscribe {
   view?: "road" | "schematic";
   fps?: number;
   side?: number;
+  theme?: "dark" | "light";
+  /** Bounding boxes around what moves. */
+  boxes?: boolean;
+  /** The strip of figures along the upper edge. */
+  figures?: boolean;
 }
 
 /** The pictures that follow as binary messages. */
