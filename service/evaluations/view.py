@@ -52,7 +52,8 @@ class _EvaluationView:
         self._words = evaluation_words(language)
         self._language = language
         self.title = self._words.title(self._spec)
-        self.runs, self.planners = self._spec.episodes, self._spec.planners
+        self.runs = self._spec.episodes
+        self.planners: Sequence[str] = self._spec.planners
         self.seed, self.same_road = self._spec.seed, self._spec.world is not None
 
     def paragraphs(self, result: Result) -> list[str]:
@@ -86,7 +87,8 @@ class _FalsificationView:
         self._words = falsification_words(language)
         self._language = language
         self.title = self._words.title(self._spec)
-        self.runs, self.planners, self.seed = self._spec.worlds, (self._spec.planner,), self._spec.seed
+        self.runs, self.seed = self._spec.worlds, self._spec.seed
+        self.planners: Sequence[str] = (self._spec.planner,)
 
     def paragraphs(self, result: Result) -> list[str]:
         """See `JobView.paragraphs`."""

@@ -47,7 +47,6 @@ from sim.actions import (
     Trigger,
 )
 from sim.config import Config
-from sim.evaluate import Evaluation
 from sim.events import EventType
 from sim.falsify import Falsification
 from sim.perceive import sensor_named
@@ -125,10 +124,10 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
-            case JobAsked(evaluation=Evaluation() as evaluation):
-                return self._evaluations.started(evaluation, fact.job)
-            case JobAsked(evaluation=Falsification() as search):
-                return self._falsifications.started(search, fact.job)
+            case JobAsked(evaluation=asked):
+                if isinstance(asked, Falsification):
+                    return self._falsifications.started(asked, fact.job)
+                return self._evaluations.started(asked, fact.job)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():
