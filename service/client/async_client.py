@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncGenerator, AsyncIterator, Sequence
+from collections.abc import AsyncGenerator, AsyncIterator, Mapping, Sequence
 from contextlib import aclosing
 from pathlib import Path
 from types import TracebackType
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import httpx
 from websockets.asyncio.client import connect
@@ -164,6 +164,8 @@ class AsyncClient:
         config: Json | None = None,
         session: str | None = None,
         road: str | None = None,
+        file: Json | None = None,
+        vary: Mapping[str, Sequence[Any]] | None = None,
         seed: int | None = None,
         language: str | None = None,
     ) -> answers.Evaluation:
@@ -174,7 +176,7 @@ class AsyncClient:
         They are run in the background; `evaluation` says how far they are, and `report` what came of them.
         """
         call = endpoints.create_evaluation(
-            text, find, runs, planners, scenario, config, session, road, seed, language
+            text, find, runs, planners, scenario, config, session, road, file, vary, seed, language
         )
         return await self._send(call)
 

@@ -59,8 +59,10 @@ class Evaluation(Answered):
     """What the roads are drawn from; a search draws numbers of things and layouts itself."""
     same_road: bool
     """Whether all episodes start from one road, that of the session it was asked of."""
+    conditions: tuple[Mapping[str, Any], ...]
+    """What is compared beside the planners, such as `{"weather": "fog"}`; empty where nothing is."""
     done: int
-    """Episodes (or worlds) that are done."""
+    """Episodes of each planner (or worlds) that are done, under all conditions together."""
     progress: Fraction
     """The share of the work that is done."""
     text: tuple[str, ...] | None

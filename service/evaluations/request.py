@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Final
+from typing import Any, Final
 
 from service.actions import Evaluate, FindWorst
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
+from sim.evaluate.cases import cases_of, problems_of
 from sim.evaluate.spec import MAX_EPISODES, Evaluation, EvaluationError
 from sim.falsify import Falsification
 from sim.falsify.spec import MAX_WORLDS
@@ -42,6 +43,9 @@ def evaluation_of(
             raise EvaluationError((Problem("road", "has_no_start"),))
         world = write(state.world)
     planners = action.planners or (config.planner,)
+    vary = _varied(action)
+    if problems := problems_of(vary):
+        raise EvaluationError(problems)
     first = config.seed if config.seed <= MAX_SEED - MAX_EPISODES else 0
     spec = Evaluation(
         planners=planners,
@@ -49,6 +53,7 @@ def evaluation_of(
         config=config,
         seed=first if seed is None else seed,
         world=world,
+        cases=cases_of(vary),
     )
     spec.check_road()
     return spec
@@ -68,6 +73,12 @@ def falsification_of(action: FindWorst, config: Config, seed: int | None = None)
         config=config,
         seed=first if seed is None else seed,
     )
+
+
+def _varied(action: Evaluate) -> dict[str, tuple[Any, ...]]:
+    """The values that are compared, by setting."""
+    values = {} if action.vary is None else asdict(action.vary)
+    return {name: tuple(each) for name, each in values.items() if each is not None}
 
 
 def unavailable_part(action: Evaluate | FindWorst) -> Problem | None:

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from service.evaluations.kinds import EVALUATION, FIND_WORST
+from service.evaluations.names import EVALUATION, FIND_WORST
 from service.jobs import JobRunner
 from service.problems import NotAvailable
 from service.refusals import refusals
-from service.sessions.facts import JobAsked
+from service.sessions.facts import JobAsked, JobTold
 from sim.evaluate import Evaluation
 from sim.falsify import Falsification
 
@@ -27,6 +27,15 @@ async def start_evaluation(
     spec = job_spec(asked.evaluation, language, session)
     record = await jobs.start(kind_of(asked.evaluation), spec, language=language)
     return replace(asked, job=record.id)
+
+
+async def talk_of_evaluation(jobs: JobRunner | None, told: JobTold, session: str) -> JobTold:
+    """The fact with the session's latest evaluation, cancelled if that is wanted. Raises `NotSaved`."""
+    found = None if jobs is None else await jobs.latest_of(session)
+    cancelled = False
+    if jobs is not None and found is not None and told.want == "cancel":
+        cancelled = await jobs.cancel(found.id)
+    return replace(told, known=True, job=found, cancelled=cancelled)
 
 
 def kind_of(evaluation: Evaluation | Falsification) -> str:

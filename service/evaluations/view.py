@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
-from service.evaluations.kinds import EVALUATION, FIND_WORST
+from service.evaluations.names import EVALUATION, FIND_WORST
 from service.narration import evaluation_words, falsification_words
 from sim.evaluate import Evaluation
 from sim.falsify import Falsification
@@ -25,6 +25,10 @@ class JobView(Protocol):
     planners: Sequence[str]
     seed: int
     same_road: bool
+    conditions: Sequence[Mapping[str, Any]]
+
+    def done(self, worked: int) -> int:
+        """How many of the runs are done once so much of the job's work is."""
 
     def paragraphs(self, result: Result) -> list[str]:
         """What came of it, in plain language."""
@@ -56,6 +60,12 @@ class _EvaluationView:
         self.planners: Sequence[str] = self._spec.planners
         self.seed, self.same_road = self._spec.seed, self._spec.world is not None
 
+        self.conditions = [dict(case.said) for case in self._spec.cases]
+
+    def done(self, worked: int) -> int:
+        """See `JobView.done`."""
+        return worked
+
     def paragraphs(self, result: Result) -> list[str]:
         """See `JobView.paragraphs`."""
         return self._words.paragraphs(self._spec, result)
@@ -81,6 +91,7 @@ class _FalsificationView:
     """A search for failures."""
 
     same_road = False
+    conditions: Sequence[Mapping[str, Any]] = ()
 
     def __init__(self, spec: Mapping[str, Any], language: str) -> None:
         self._spec = Falsification.from_json(spec)
@@ -89,6 +100,10 @@ class _FalsificationView:
         self.title = self._words.title(self._spec)
         self.runs, self.seed = self._spec.worlds, self._spec.seed
         self.planners: Sequence[str] = (self._spec.planner,)
+
+    def done(self, worked: int) -> int:
+        """See `JobView.done`."""
+        return min(self.runs, worked)
 
     def paragraphs(self, result: Result) -> list[str]:
         """See `JobView.paragraphs`."""

@@ -8,6 +8,7 @@ from service.evaluations.view import JobView, view_of
 from service.http.session_json import PREFIX
 from service.jobs import JobState
 from service.resources import DEFAULT_LANGUAGE
+from service.security.link_tickets import LinkTickets
 from service.store import JobRecord
 
 FORMATS = ("html", "markdown", "json", "csv")
@@ -18,13 +19,14 @@ def started_json(job_id: str) -> dict[str, Any]:
     return {"id": job_id, "links": evaluation_links(job_id)}
 
 
-def evaluation_links(job_id: str) -> dict[str, str]:
-    """Where everything of an evaluation is."""
+def evaluation_links(job_id: str, tickets: LinkTickets | None = None) -> dict[str, str]:
+    """Where everything of an evaluation is; `tickets` open its report in a browser, which has no key."""
     own = f"{PREFIX}/evaluations/{job_id}"
-    return {"self": own, "report": f"{own}/report"}
+    report = f"{own}/report"
+    return {"self": own, "report": report if tickets is None else tickets.add_to(report)}
 
 
-def summary_json(record: JobRecord) -> dict[str, Any]:
+def summary_json(record: JobRecord, tickets: LinkTickets | None = None) -> dict[str, Any]:
     """An evaluation in a list."""
     return {
         "id": record.id,
@@ -33,20 +35,21 @@ def summary_json(record: JobRecord) -> dict[str, Any]:
         "created_at": record.created_at.isoformat(),
         "title": job_view(record).title,
         "progress": progress(record),
-        "links": evaluation_links(record.id),
+        "links": evaluation_links(record.id, tickets),
     }
 
 
-def evaluation_json(record: JobRecord) -> dict[str, Any]:
+def evaluation_json(record: JobRecord, tickets: LinkTickets | None = None) -> dict[str, Any]:
     """An evaluation as it stands."""
     view = job_view(record)
-    return summary_json(record) | {
+    return summary_json(record, tickets) | {
         "runs": view.runs,
         "planners": view.planners,
         "seed": view.seed,
         "config": record.spec["config"],
         "same_road": view.same_road,
-        "done": min(view.runs, record.done),
+        "conditions": view.conditions,
+        "done": view.done(record.done),
         "text": None if record.result is None else view.paragraphs(record.result),
         "result": record.result,
         "error": record.error,

@@ -16,6 +16,7 @@ from service.actions import (
     Chat,
     Drop,
     Evaluate,
+    EvaluationTalk,
     FindWorst,
     Forget,
     Goal,
@@ -44,6 +45,7 @@ from service.sessions.facts import (
     Dropped,
     Fact,
     JobAsked,
+    JobTold,
     PauseSet,
     Resolved,
     Stepped,
@@ -150,6 +152,13 @@ def _find_worst(transaction: Transaction, action: FindWorst, _sequence: int, pos
         return JobAsked(falsification_of(action, transaction.timeline.state.config_of()))
     except EvaluationError as error:
         raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
+
+
+@handles(EvaluationTalk)
+def _talk_of_evaluation(
+    _transaction: Transaction, action: EvaluationTalk, _sequence: int, _position: int
+) -> JobTold:
+    return JobTold(action.want)
 
 
 @handles(Style)

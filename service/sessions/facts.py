@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from service.actions import Action, Ask, Goal, Style
 from service.sessions.bookmarks import Bookmarked, Jumped
 from service.sessions.pending import NO_TALK, Talk
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed, PlaybackSpeedSet
+from service.store import JobRecord
 from sim.evaluate import Evaluation
 from sim.falsify import Falsification
 from sim.goals import Finding
@@ -106,6 +107,18 @@ class JobAsked:
 
 
 @dataclass(frozen=True, slots=True)
+class JobTold:
+    """How an evaluation stands, or its end; `job` is None where there is none, as in a replay."""
+
+    want: Literal["progress", "cancel"]
+    known: bool = False
+    """whether it was looked for"""
+    job: JobRecord | None = None
+    cancelled: bool = False
+    """whether it was under way, and is cancelled now"""
+
+
+@dataclass(frozen=True, slots=True)
 class Dropped:
     """The pending question was dropped; `question` is None where nothing was pending."""
 
@@ -139,6 +152,7 @@ Fact: TypeAlias = (
     | Chatted
     | Dropped
     | JobAsked
+    | JobTold
     | Answerable
 )
 
@@ -150,6 +164,8 @@ def spread_facts(facts: Sequence[Fact]) -> Iterator[Fact]:
             yield from fact.done
         elif isinstance(fact, JobAsked):
             yield replace(fact, job=None)
+        elif isinstance(fact, JobTold):
+            yield JobTold(fact.want)
         else:
             yield fact
 
@@ -207,7 +223,7 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.before, fact.tick), *fact.changes)
         case Resolved():
             return tuple(change for each in fact.done for change in each.changes)
-        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped() | JobAsked():
+        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped() | JobAsked() | JobTold():
             return ()
 
 

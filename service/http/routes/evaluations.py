@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Annotated, Any, Literal, cast
 
+import orjson
 from anyio import to_thread
 from fastapi import Body, Query, Request, Response
 
@@ -13,7 +14,7 @@ from service.actions import Evaluate, FindWorst
 from service.contract import answers as schemas
 from service.contract import requests as bodies
 from service.evaluations.refuse import refuse_evaluation
-from service.evaluations.request import evaluation_of, falsification_of
+from service.evaluations.request import RUNS, evaluation_of, falsification_of
 from service.evaluations.start import job_spec, kind_of
 from service.http import examples
 from service.http.content_type import JSON_ONLY
@@ -29,6 +30,7 @@ from service.http.evaluation_json import (
 from service.http.pagination import After, Limit, cursor, page_json
 from service.http.responses import json_response
 from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.routes.create_session import described_config
 from service.http.validation import invalid
 from service.jobs import JobState
@@ -36,6 +38,7 @@ from service.narration import evaluation_words
 from service.problems import (
     Ambiguous,
     ContentTooLarge,
+    DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
@@ -51,19 +54,25 @@ from service.problems import (
 )
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
+from service.scenarios import ScenarioError, read_scenario
+from service.scenarios.begin import evaluation_of_scenario
 from service.sessions.session import Session
 from service.store import JobRecord
+from sim.config import ConfigError
 from sim.evaluate import Evaluation, EvaluationError
 from sim.falsify import Falsification
+from sim.generation import GenerationError
+from sim.session.errors import EditError
 
 router = api_router("evaluations")
 
-_ALONE = ("find", "runs", "planners", "scenario", "config", "road")
+_ALONE = ("find", "runs", "planners", "scenario", "config", "road", "vary", "file")
 """What a sentence says itself."""
 _REPORT_POLICY = {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
 }
 """A report holds its own styles, and loads nothing."""
+_TICKET = "Opens it without a key; part of `links.report`, for a day."
 _LOCATION = {"headers": {"Location": {"description": "Where it is.", "schema": {"type": "string"}}}}
 _FORMATS = {
     "html": "text/html; charset=utf-8",
@@ -86,6 +95,7 @@ _FORMATS = {
             ContentTooLarge,
             UnsupportedMediaType,
             Invalid,
+            DoesNotFit,
             NotAvailable,
             NotUnderstood,
             UnknownSession,
@@ -109,7 +119,8 @@ async def create_evaluation(
     spec = await _read_evaluation(here, body, session, language)
     job = job_spec(spec, language, None if session is None else session.id)
     record = await here.jobs.start(kind_of(spec), job, language=language)
-    return json_response(evaluation_json(record), 202, {"Location": evaluation_links(record.id)["self"]})
+    where = {"Location": evaluation_links(record.id)["self"]}
+    return json_response(evaluation_json(record, here.guard.link_tickets), 202, where)
 
 
 @router.get(
@@ -132,7 +143,7 @@ async def list_evaluations(here: Here, after: After = None, limit: Limit = 50) -
 )
 async def read_evaluation(evaluation_id: str, here: Here) -> Response:
     """How far it is, and what came of it."""
-    return json_response(evaluation_json(await here.jobs.get(evaluation_id)))
+    return json_response(evaluation_json(await here.jobs.get(evaluation_id), here.guard.link_tickets))
 
 
 @router.delete(
@@ -166,11 +177,13 @@ async def delete_evaluation(evaluation_id: str, here: Here) -> Response:
         **problem_responses(UnknownJob, Invalid, NotFinished, NotSaved),
     },
 )
+@policy(link=True)
 async def read_report(
     evaluation_id: str,
     here: Here,
     request: Request,
     format: Annotated[Literal["html", "markdown", "json", "csv"], Query()] = "html",
+    ticket: Annotated[str | None, Query(max_length=100, description=_TICKET)] = None,  # noqa: ARG001
 ) -> Response:
     """In plain language first, then plots and tables; `csv` has a line for each episode and planner.
 
@@ -215,6 +228,8 @@ async def _read_evaluation(
     here: Context, body: bodies.NewEvaluation, session: Session | None, language: str
 ) -> Evaluation | Falsification:
     """The evaluation or search that is asked for. Raises a `ProblemError`."""
+    if body.file is not None:
+        return await to_thread.run_sync(_read_file, body, language)
     state = None if session is None else session.run
     if session is not None and (body.scenario or body.config):
         raise invalid([FieldProblem("session", "names the roads already; leave out scenario and config")])
@@ -245,9 +260,10 @@ def _typed(body: bodies.NewEvaluation) -> Evaluate | FindWorst:
     """What is asked for in figures. Raises `Invalid`."""
     planners = None if body.planners is None else tuple(body.planners)
     if body.find is None:
-        return Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road)
-    if body.road is not None:
-        raise invalid([FieldProblem("road", "is what is searched for; leave it out")])
+        return Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road, vary=body.vary)
+    for name in ("road", "vary"):
+        if getattr(body, name) is not None:
+            raise invalid([FieldProblem(name, "is part of what is searched for; leave it out")])
     if planners is not None and len(planners) > 1:
         raise invalid([FieldProblem("planners", "is one planner where its failures are searched")])
     return FindWorst(runs=body.runs, planner=cast(Any, planners[0] if planners else None))
@@ -266,3 +282,29 @@ async def _read_sentence(
             return action
     sentence = refusals(language).said("no_evaluation")
     raise NotUnderstood(sentence, errors=[FieldProblem("text", sentence)], understood=[text])
+
+
+_BESIDE_FILE = ("text", "find", "scenario", "config", "vary", "session", "road")
+"""What a scenario file says itself."""
+
+
+def _read_file(body: bodies.NewEvaluation, language: str) -> Evaluation:
+    """The evaluation of a scenario file. Raises a `ProblemError`. For a thread: it may draw a road."""
+    twice = [name for name in _BESIDE_FILE if getattr(body, name) is not None]
+    if twice:
+        raise invalid(FieldProblem(name, "is said in the file already") for name in twice)
+    words = refusals(language)
+    try:
+        scenario = read_scenario(orjson.dumps(body.file).decode())
+        return evaluation_of_scenario(
+            scenario, RUNS if body.runs is None else body.runs, tuple(body.planners or ()), body.seed
+        )
+    except ScenarioError as error:
+        flaws = [FieldProblem(f"file.{each.field}".rstrip("."), each.message) for each in error.flaws]
+        raise invalid(flaws) from error
+    except EvaluationError as error:
+        raise refuse_evaluation(error, words) from error
+    except EditError as error:
+        raise DoesNotFit(words.edit(error), errors=[FieldProblem("file", words.edit(error))]) from error
+    except (ConfigError, GenerationError) as error:
+        raise invalid([FieldProblem("file", str(error))]) from error
