@@ -60,7 +60,7 @@ class _EvaluationView:
         self.planners: Sequence[str] = self._spec.planners
         self.seed, self.same_road = self._spec.seed, self._spec.world is not None
 
-        self.conditions = [dict(case.said) for case in self._spec.cases]
+        self.conditions: Sequence[Mapping[str, Any]] = [dict(case.said) for case in self._spec.cases]
 
     def done(self, worked: int) -> int:
         """See `JobView.done`."""
@@ -90,7 +90,7 @@ class _EvaluationView:
 class _FalsificationView:
     """A search for failures."""
 
-    same_road = False
+    same_road: bool = False
     conditions: Sequence[Mapping[str, Any]] = ()
 
     def __init__(self, spec: Mapping[str, Any], language: str) -> None:

@@ -34,6 +34,7 @@ def bare(result: dict[str, Any]) -> dict[str, Any]:
     plain: dict[str, Any] = json.loads(json.dumps(result))
     for each in plain["cases"]:
         each.pop("link", None)
+        each.pop("scenario", None)
         each["case"]["why"] = ""
     return plain
 
