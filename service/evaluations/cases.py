@@ -108,7 +108,7 @@ def removals(case: Case) -> list[Remove] | None:
         return None
     bare = {kind for kind in PLACEABLE if not any(kind_of(name) is kind for name in kept)}
     whole = [kind for kind in PLACEABLE if kind in bare and start.count(kind)]
-    actions = [Remove(kind=kind.value, count="all") for kind in whole]  # type: ignore[arg-type]
+    actions = [Remove(kind=kind.value, count="all") for kind in whole]
     for name in gone:
         if kind_of(name) not in bare:
             kind = kind_of(name).value

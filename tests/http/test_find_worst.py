@@ -141,6 +141,20 @@ async def test_a_cancel_ends_it() -> None:
         assert (await service.client.get(f"{path}/report")).status_code == 409
 
 
+async def test_how_it_stands_and_its_end_can_be_said() -> None:
+    Held.go_on = Event()
+    async for service in started(MemoryStore(), held=True):
+        path = await service.session(config=SMALL | {"planner": "priority", "vehicles": 3}, paused=True)
+        answer = await service.act(path, {"do": "find_worst", "runs": 400})
+        (one,) = answer.json()["evaluations"]
+        await until_done(service, one["links"]["self"], 20)
+        told = await service.act(path, {"do": "evaluation", "want": "progress"})
+        assert "20 of 400 runs. (The hardest of 400 worlds for Priority rules.)" in told.json()["reply"]
+        told = await service.act(path, {"do": "evaluation", "want": "cancel"})
+        assert told.json()["reply"].startswith("Cancelled after 20 of 400 runs.")
+        assert (await service.client.get(one["links"]["self"])).json()["state"] == "cancelled"
+
+
 @pytest.mark.parametrize(
     ("body", "field"),
     [
