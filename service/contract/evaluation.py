@@ -62,7 +62,7 @@ class Evaluation(Answered):
     conditions: tuple[Mapping[str, Any], ...]
     """What is compared beside the planners, such as `{"weather": "fog"}`; empty where nothing is."""
     done: int
-    """Episodes of each planner (or worlds) that are done, under all conditions together."""
+    """Episodes of each planner that are done, under all conditions together; or worlds that are done."""
     progress: Fraction
     """The share of the work that is done."""
     text: tuple[str, ...] | None

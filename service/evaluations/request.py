@@ -59,6 +59,12 @@ def evaluation_of(
     return spec
 
 
+def _varied(action: Evaluate) -> dict[str, tuple[Any, ...]]:
+    """The values that are compared, by setting."""
+    values = {} if action.vary is None else asdict(action.vary)
+    return {name: tuple(each) for name, each in values.items() if each is not None}
+
+
 def falsification_of(action: FindWorst, config: Config, seed: int | None = None) -> Falsification:
     """The search for failures that is asked for; checked. `seed`: instead of that of the configuration.
 
@@ -73,12 +79,6 @@ def falsification_of(action: FindWorst, config: Config, seed: int | None = None)
         config=config,
         seed=first if seed is None else seed,
     )
-
-
-def _varied(action: Evaluate) -> dict[str, tuple[Any, ...]]:
-    """The values that are compared, by setting."""
-    values = {} if action.vary is None else asdict(action.vary)
-    return {name: tuple(each) for name, each in values.items() if each is not None}
 
 
 def unavailable_part(action: Evaluate | FindWorst) -> Problem | None:

@@ -146,19 +146,19 @@ def _evaluate(transaction: Transaction, action: Evaluate, _sequence: int, positi
         raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
 
 
+@handles(EvaluationTalk)
+def _talk_of_evaluation(
+    _transaction: Transaction, action: EvaluationTalk, _sequence: int, _position: int
+) -> JobTold:
+    return JobTold(action.want)
+
+
 @handles(FindWorst)
 def _find_worst(transaction: Transaction, action: FindWorst, _sequence: int, position: int) -> JobAsked:
     try:
         return JobAsked(falsification_of(action, transaction.timeline.state.config_of()))
     except EvaluationError as error:
         raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
-
-
-@handles(EvaluationTalk)
-def _talk_of_evaluation(
-    _transaction: Transaction, action: EvaluationTalk, _sequence: int, _position: int
-) -> JobTold:
-    return JobTold(action.want)
 
 
 @handles(Style)

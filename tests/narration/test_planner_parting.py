@@ -1,4 +1,4 @@
-"""Two planners compared: the first tick they differ, and what each makes of the other's move."""
+"""Two planners compared: where they part, what each makes of the other's move, and what it led to."""
 
 from __future__ import annotations
 

@@ -261,9 +261,10 @@ def _typed(body: bodies.NewEvaluation) -> Evaluate | FindWorst:
     planners = None if body.planners is None else tuple(body.planners)
     if body.find is None:
         return Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road, vary=body.vary)
-    for name in ("road", "vary"):
-        if getattr(body, name) is not None:
-            raise invalid([FieldProblem(name, "is part of what is searched for; leave it out")])
+    if body.vary is not None:
+        raise invalid([FieldProblem("vary", "compares episodes; a search draws its worlds itself")])
+    if body.road is not None:
+        raise invalid([FieldProblem("road", "is what is searched for; leave it out")])
     if planners is not None and len(planners) > 1:
         raise invalid([FieldProblem("planners", "is one planner where its failures are searched")])
     return FindWorst(runs=body.runs, planner=cast(Any, planners[0] if planners else None))

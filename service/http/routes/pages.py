@@ -23,8 +23,8 @@ EMBED_HEADERS = {
         "frame-ancestors 'none'; ", ""
     )
 }
-"""Any page, a local file or a notebook may show the embedded run in a frame, and nothing else of the service: it has no
-button that changes a session, so that a press that is led astray does no harm."""
+"""Any page, a local file or a notebook may show the embedded run in a frame, and nothing else of the service.
+It has no button that changes a session, so that a press that is led astray does no harm."""
 
 _KINDS = (".css", ".js", ".svg")
 

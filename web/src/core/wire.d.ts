@@ -151,7 +151,7 @@ export interface Ask {
   parameter?: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed" | "view" | "preference" | "road" | "layout" | null;
   value?: number | string | null;
   term?: "arrived" | "astar" | "attentive" | "av" | "barrier" | "bfs" | "camera" | "cautious" | "certificate" | "closest_call" | "columns" | "confidence" | "continuous" | "cooperative" | "courtesy" | "crash" | "detection_sensitivity" | "dijkstra" | "digest" | "dwa" | "dynamics" | "ego" | "episode" | "false_positive_rate" | "fastest" | "forecast" | "fusion" | "grid" | "layout" | "lidar" | "occupancy" | "pedestrian" | "percept" | "perfect" | "planner" | "playback_speed" | "pothole" | "pothole_probability" | "preference" | "priority" | "radar" | "regret" | "rl" | "rows" | "rss" | "rules" | "safety_buffer" | "seed" | "sensor" | "sensor_noise" | "sensor_range_m" | "smooth_ride" | "avoid_potholes" | "spawn_probability" | "step_seconds" | "stuck" | "success_rate" | "target_speed_kmh" | "tick" | "time_of_day" | "traffic" | "ttc" | "vehicle" | "weather" | "what_if" | null;
-  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "way" | "wait" | "fault" | "too_late" | "foreseen" | "avoidable" | "here" | "compare" | "character" | "own" | "detour" | null;
+  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "choices" | "losses" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "way" | "wait" | "free" | "matters" | "fault" | "too_late" | "foreseen" | "avoidable" | "here" | "compare" | "character" | "own" | "method" | "detour" | null;
   until?: number | null;
   ticks?: number | null;
   seconds?: number | null;
@@ -423,7 +423,7 @@ export interface Evaluation {
   same_road: boolean;
   /** What is compared beside the planners, such as `{"weather": "fog"}`; empty where nothing is. */
   conditions: ({ [key: string]: unknown })[];
-  /** Episodes of each planner (or worlds) that are done, under all conditions together. */
+  /** Episodes of each planner that are done, under all conditions together; or worlds that are done. */
   done: number;
   /** The share of the work that is done. */
   progress: number;
