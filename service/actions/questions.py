@@ -34,17 +34,29 @@ QuestionName = Literal[
     "quiz",
     "rules",
 ]
-OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how", "way", "wait"]
+OutlookName = Literal[
+    "safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how", "way", "wait", "free", "matters"
+]
 """What of the time ahead is asked about.
 
-`way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is.
+`way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is;
+`free`: which moves meet nothing now; `matters`: what the coming move hangs on.
 """
 BlameName = Literal["fault", "too_late", "foreseen", "avoidable"]
 """What about a crash is asked."""
-PlannersName = Literal["here", "compare", "character", "own"]
-"""What about planners is asked; `own`: what this session's would have done where a person drove."""
-HistoryName = Literal["closest_call", "summary", "since", "between", "seen", "riskiest", "similar"]
-"""What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick."""
+PlannersName = Literal["here", "compare", "character", "own", "method"]
+"""What about planners is asked.
+
+`own`: what this session's would have done where a person drove; `method`: by what it chooses.
+"""
+HistoryName = Literal[
+    "closest_call", "summary", "since", "between", "seen", "riskiest", "similar", "choices", "losses"
+]
+"""What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
+
+`choices`: the moves of a decision, and what each would have met; `losses`: what the decisions of this episode
+have cost against the quickest way.
+"""
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
 MomentName = Literal["detour"]
@@ -160,7 +172,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
     "outlook": QuestionTraits(("what", "move"), ("what",), runs_episodes=True),
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
-    "planners": QuestionTraits(("what", "planners", "planner", "tick"), ("what",), runs_episodes=True),
+    "planners": QuestionTraits(
+        ("what", "planners", "planner", "tick", "ticks"), ("what",), runs_episodes=True
+    ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
 }
@@ -184,12 +198,19 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "avoid_how": (frozenset(),),
     "way": (frozenset(),),
     "wait": (frozenset(),),
+    "free": (frozenset(),),
+    "matters": (frozenset(),),
     "detour": (frozenset(), frozenset(("move",))),
     **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
-    "here": (frozenset(), frozenset(("planners",))),
-    "compare": (frozenset(), frozenset(("planners",))),
+    **dict.fromkeys(
+        ("here", "compare"),
+        tuple(
+            frozenset(named + when) for named in ((), ("planners",)) for when in ((), ("tick",), ("ticks",))
+        ),
+    ),
     "character": (frozenset(), frozenset(("planner",))),
     "own": (frozenset(), frozenset(("tick",))),
+    "method": (frozenset(), frozenset(("planner",))),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""
@@ -202,5 +223,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "seen": (frozenset(("tick",)), frozenset(("ticks",))),
     "riskiest": (frozenset(), frozenset(("tick", "until"))),
     "similar": (frozenset(), frozenset(("tick",))),
+    "choices": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
+    "losses": (frozenset(),),
 }
 """The ticks that a question about the past names, in each of the ways it can be said."""

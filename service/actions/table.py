@@ -237,7 +237,7 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
     ),
     EvaluationTalk: ActionTraits(changes_session=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     FindWorst: ActionTraits(
-        offered=False,
+        changes_session=False,
         separates_settings=True,
         model=ModelUse.CONFIRMED,
         what_if=WhatIf.NO_EFFECT,

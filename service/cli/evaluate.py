@@ -122,7 +122,7 @@ def _varied(options: Sequence[str]) -> Varied | None:
 
 def _read(text: str, seed: int, language: str, vary: Varied | None = None) -> Evaluation:
     """The evaluation that a sentence asks for; ends the command with why there is none."""
-    from service.actions import Evaluate
+    from service.actions import Evaluate, FindWorst
     from service.grammar import Language
     from service.grammar.parse_types import Understood
 
@@ -138,6 +138,8 @@ def _read(text: str, seed: int, language: str, vary: Varied | None = None) -> Ev
             pass
         case (Evaluate(),):
             fail(words.said("no_road_here"))
+        case (FindWorst(),):
+            fail(words.said("search_here"))
         case _:
             fail(words.said("no_evaluation"))
     try:

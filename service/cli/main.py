@@ -37,6 +37,10 @@ COMMANDS: Final = {
         "service.cli.scenario",
         "List, check, show, say, open, make and run scenario files.",
     ),
+    "worst": (
+        "service.cli.worst",
+        "Search for worlds that a planner fails although they can be driven.",
+    ),
     "replay": (
         "service.cli.replay",
         "Replay a recording and compare digests. Exits with 1 when they differ.",

@@ -157,6 +157,7 @@ class AsyncClient:
         self,
         text: str | None = None,
         *,
+        find: str | None = None,
         runs: int | None = None,
         planners: Sequence[str] | None = None,
         scenario: str | None = None,
@@ -170,10 +171,12 @@ class AsyncClient:
     ) -> answers.Evaluation:
         """Starts many episodes: `evaluate("run 500 episodes with A*")`, or in figures.
 
+        With `find="worst"` worlds are searched that one planner fails although they can be driven.
+
         They are run in the background; `evaluation` says how far they are, and `report` what came of them.
         """
         call = endpoints.create_evaluation(
-            text, runs, planners, scenario, config, session, road, file, vary, seed, language
+            text, find, runs, planners, scenario, config, session, road, file, vary, seed, language
         )
         return await self._send(call)
 

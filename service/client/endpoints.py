@@ -255,16 +255,28 @@ def read_regret(session: str, first: int, limit: int) -> Call[answers.Judged]:
 
 
 def run_counterfactual(
-    session: str, actions: Sequence[Json], move: str | None, at_tick: int | None, ticks: int | None
+    session: str,
+    actions: Sequence[Json],
+    move: str | None,
+    planners: tuple[str, str] | None,
+    at_tick: int | None,
+    ticks: int | None,
 ) -> Call[answers.Counterfactual]:
     """Runs a counterfactual beside the real run."""
-    body = _without_none(at_tick=at_tick, move=move, actions=list(actions) or None, ticks=ticks)
+    body = _without_none(
+        at_tick=at_tick,
+        move=move,
+        actions=list(actions) or None,
+        planners=None if planners is None else list(planners),
+        ticks=ticks,
+    )
     path = _session_path(session, "/counterfactual")
     return Call("POST", path, _json(answers.Counterfactual), body, key=new_key())
 
 
 def create_evaluation(
     text: str | None,
+    find: str | None,
     runs: int | None,
     planners: Sequence[str] | None,
     scenario: str | None,
@@ -279,6 +291,7 @@ def create_evaluation(
     """Starts many episodes in the background."""
     body = _without_none(
         text=text,
+        find=find,
         runs=runs,
         planners=None if planners is None else [*planners],
         scenario=scenario,

@@ -158,6 +158,7 @@ class Client:
         self,
         text: str | None = None,
         *,
+        find: str | None = None,
         runs: int | None = None,
         planners: Sequence[str] | None = None,
         scenario: str | None = None,
@@ -171,10 +172,12 @@ class Client:
     ) -> answers.Evaluation:
         """Starts many episodes: `evaluate("run 500 episodes with A*")`, or in figures.
 
+        With `find="worst"` worlds are searched that one planner fails although they can be driven.
+
         They are run in the background; `evaluation` says how far they are, and `report` what came of them.
         """
         call = endpoints.create_evaluation(
-            text, runs, planners, scenario, config, session, road, file, vary, seed, language
+            text, find, runs, planners, scenario, config, session, road, file, vary, seed, language
         )
         return self._send(call)
 

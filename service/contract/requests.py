@@ -124,7 +124,16 @@ class NewEvaluation(Sent):
         None,
         description="As a sentence, such as `run 500 episodes with A*`. Beside it: session, seed, language.",
     )
-    runs: int | None = Field(None, description="Episodes of each planner, up to 1,000,000. Default: 100.")
+    find: Literal["worst"] | None = Field(
+        None,
+        description="Search for worlds that one planner fails although they can be driven; numbers of things "
+        "and layouts are drawn. Default: run episodes.",
+    )
+    runs: int | None = Field(
+        None,
+        description="Episodes of each planner, up to 1,000,000; default 100. Of a search: worlds, up to "
+        "100,000; default 1,000.",
+    )
     planners: list[str] | None = Field(
         None,
         min_length=1,

@@ -6,12 +6,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from service.evaluations.kinds import EVALUATION
+from service.evaluations.kinds import EVALUATION, FIND_WORST
 from service.jobs import JobRunner
 from service.problems import NotAvailable
 from service.refusals import refusals
 from service.sessions.facts import JobAsked, JobTold
 from sim.evaluate import Evaluation
+from sim.falsify import Falsification
 
 
 async def start_evaluation(
@@ -23,7 +24,8 @@ async def start_evaluation(
     """
     if jobs is None:
         raise NotAvailable(refusals(language).session("no_jobs"))
-    record = await jobs.start(EVALUATION, job_spec(asked.evaluation, language, session), language=language)
+    spec = job_spec(asked.evaluation, language, session)
+    record = await jobs.start(kind_of(asked.evaluation), spec, language=language)
     return replace(asked, job=record.id)
 
 
@@ -36,6 +38,11 @@ async def talk_of_evaluation(jobs: JobRunner | None, told: JobTold, session: str
     return replace(told, known=True, job=found, cancelled=cancelled)
 
 
-def job_spec(evaluation: Evaluation, language: str, session: str | None) -> Mapping[str, Any]:
+def kind_of(evaluation: Evaluation | Falsification) -> str:
+    """The kind of job that does it."""
+    return EVALUATION if isinstance(evaluation, Evaluation) else FIND_WORST
+
+
+def job_spec(evaluation: Evaluation | Falsification, language: str, session: str | None) -> Mapping[str, Any]:
     """What the job is stored with; the language is that of its report."""
     return {**evaluation.to_json(), "language": language, "session": session}

@@ -189,6 +189,10 @@ def _questions() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "history", "what": "seen", "tick": 5}
     yield {"do": "ask", "about": "history", "what": "riskiest"}
     yield {"do": "ask", "about": "history", "what": "similar", "count": 3}
+    yield {"do": "ask", "about": "history", "what": "choices"}
+    yield {"do": "ask", "about": "history", "what": "choices", "tick": 5}
+    yield {"do": "ask", "about": "history", "what": "choices", "ticks": 3}
+    yield {"do": "ask", "about": "history", "what": "losses"}
     yield {"do": "ask", "about": "why", "move": "left", "instead": "right"}
     for how in get_args(DetailName):
         yield {"do": "ask", "about": "detail", "how": how}
@@ -210,6 +214,10 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": about, "what": what, "tick": 12}
     for what in ("here", "compare"):
         yield {"do": "ask", "about": "planners", "what": what, "planners": ["astar", "dijkstra"]}
+        yield {"do": "ask", "about": "planners", "what": what, "tick": 12}
+        yield {"do": "ask", "about": "planners", "what": what, "planners": ["astar", "dijkstra"], "tick": 12}
+    yield {"do": "ask", "about": "planners", "what": "here", "ticks": 3}
+    yield {"do": "ask", "about": "planners", "what": "method", "planner": "astar"}
     yield {"do": "ask", "about": "planners", "what": "character", "planner": "astar"}
 
 

@@ -40,6 +40,8 @@ ENGINE_CONCEPTS = frozenset(
         "chat_filler",
         "detail",
         "spoken_tick",
+        "had_been",
+        "would_have",
         FROM_RIGHT,
         BEGINS_NEGATION,
         FROM,

@@ -21,6 +21,8 @@ COLON = "colon"
 OF_THE = "of_the"
 """Value of quantities that need another before them: "two of the"."""
 
+WITHOUT = "v.without"
+"""Concept of words that suppose things not to be there: "without the car, what would you do?"."""
 ODD = "odd"
 """Value of quantities that no request has a use for ("every other"), and the form of such nouns."""
 
@@ -78,6 +80,7 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
             if edge[2][0] in _AMOUNTS:
                 amounts.setdefault(edge[1], []).append(edge)
     odd = [edge for ending in amounts.values() for edge in ending if edge.sense.value == ODD]
+    without = {edge.end for edge in lattice.all() if edge.concept == WITHOUT}
     for at in range(lattice.size):
         nouns = [edge for edge in lattice.edges[at] if edge[2][0] in named]
         if not nouns:
@@ -99,6 +102,8 @@ def add_noun_phrases(lattice: Lattice, vague: int) -> None:
         for noun in nouns:
             phrase = _joined(gathered, noun, vague)
             lattice.edges[gathered.start].append(phrase)
+            if "no" in gathered.said and (supposed := _supposed_away(amounts, at, without)) is not None:
+                lattice.edges[supposed.start].append(_joined(supposed, noun, vague))
             after = _number_after(lattice, phrase)
             if after is None:
                 after = _change_after(lattice, phrase)
@@ -155,6 +160,17 @@ def _gather(amounts: dict[int, list[Edge]], noun: int, *, beyond: bool = True) -
             gathered.said.add(str(longest.sense.value))
         gathered.start = longest.start
     return gathered
+
+
+def _supposed_away(amounts: dict[int, list[Edge]], noun: int, without: set[int]) -> _Gathered | None:
+    """The quantities after a word that supposes things not to be there, which may be read as "no" as well."""
+    others = {
+        end: [edge for edge in edges if edge.sense.value != "no"]
+        for end, edges in amounts.items()
+        if any(edge.sense.value != "no" for edge in edges)
+    }
+    gathered = _gather(others, noun)
+    return gathered if gathered.start in without else None
 
 
 def _numbered(amounts: Mapping[int, Sequence[Edge]], at: int) -> bool:

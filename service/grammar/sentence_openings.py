@@ -15,6 +15,9 @@ TEACH = "teach"
 SENTENCE = "sentence"
 """Value of words for "if" that are so only where a sentence begins: "with 5 potholes, what would you do?"."""
 
+WITHOUT = "without"
+"""Value of words for "if" that belong to what is supposed: "without the car, what would you do?"."""
+
 _OPENERS = frozenset((WHAT_IF, IF, TEACH))
 _PASSED = (GLUE, SEPARATOR)
 
@@ -39,9 +42,12 @@ class Beginnings:
                 self._only_sentences.add(at)
             passed = max((edge[1] for edge in here if edge[2][0] in _PASSED), default=at)
             past_all[at] = past_all[min(passed, end)] if passed > at else at
-            self._past[at] = self._past[min(passed, end)] if passed > at and of.isdisjoint(_OPENERS) else at
+            opens = not of.isdisjoint(_OPENERS)
             if THEN_WHAT in of:
-                asked.append((at, max(edge[1] for edge in here if edge[2][0] == THEN_WHAT)))
+                stop = max(edge[1] for edge in here if edge[2][0] == THEN_WHAT)
+                asked.append((at, stop))
+                opens = opens or (stop < end and IF in self._at[past_all[stop]])
+            self._past[at] = self._past[min(passed, end)] if passed > at and not opens else at
         self._end = end
         parts = [
             at for at, stop in asked if stop >= end or past_all[stop] >= end or _separates(lattice, stop)

@@ -326,6 +326,8 @@ class Sentences(RuleSentences):
         if ask.what == "similar":
             key += "_to" if ask.tick is not None else ""
             key += "" if ask.count is None else "_one" if ask.count == 1 else "_count"
+        if ask.what == "choices" and ask.tick is not None:
+            key += "_at"
         if ask.ticks is not None:
             key += "_ticks" if ask.ticks != 1 else "_tick"
         return self._word("history", key).format(
@@ -337,8 +339,9 @@ class Sentences(RuleSentences):
         named = ask.planners or (() if ask.planner is None else (ask.planner,))
         planners = self._words["and"].join([self._value("planner", planner) for planner in named])
         key = str(ask.what) + ("_of" if named else "") + ("" if ask.tick is None else "_tick")
+        key += "" if ask.ticks is None else "_ticks"
         move = "" if ask.move is None else self._word("asked", ask.move)
-        return self._word(ask.about, key).format(planners=planners, tick=ask.tick, move=move)
+        return self._word(ask.about, key).format(planners=planners, tick=ask.tick, ticks=ask.ticks, move=move)
 
     def _evaluate(self, action: Evaluate) -> str:
         planners = [self._value("planner", planner) for planner in action.planners or ()]

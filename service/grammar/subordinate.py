@@ -13,10 +13,13 @@ from service.grammar.composition import asks
 from service.grammar.fragments import BUT, OR, PAUSE, STOP, Fragment
 from service.grammar.frames import Filled, Frame
 from service.grammar.lattice import GLUE, NAME, Edge, Lattice
+from service.grammar.lexicon import Sense
 from service.grammar.paths import SEPARATOR
-from service.grammar.sentence_openings import IF, TEACH, THEN_WHAT, WHAT_IF, Beginnings
+from service.grammar.sentence_openings import IF, TEACH, THEN_WHAT, WHAT_IF, WITHOUT, Beginnings
 
 HAD_MOVED = "had_moved"
+HAD_BEEN = "had_been"
+"""Concept of words that suppose something of a past moment: "had not been there"."""
 MEANS = "means"
 
 _OPENING = frozenset((WHAT_IF, IF, THEN_WHAT, TEACH))
@@ -28,6 +31,9 @@ NO_CHANGE = verbs_where(lambda traits: traits.what_if is WhatIf.INVALID)
 
 GOES_BACK = verbs_where(lambda traits: traits.what_if is WhatIf.REFUSED)
 """Actions that go back in time; after a condition and "but" they are about the session."""
+
+WOULD_HAVE = "would_have"
+"""Concept of words by which a question is about a past moment: "would you have"."""
 
 CONDITIONAL = frozenset({"cond", "past", "at"})
 """Forms in place inside a condition."""
@@ -139,15 +145,26 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
         divided = divide(first, last, CONDITIONAL)
         found = divided.failed or _actions(divided, first, last, NO_CHANGE)
         if not isinstance(found, Fragment):
-            return _what_if(begin, stop, found)
+            past = _is_past(lattice, (first, last), (start, end))
+            return _what_if(begin, stop, found, past=past)
         failed = failed or found
         if last == end and cut is None:
             cut = _before_question(divided)
     return failed if cut is None else _what_if(begin, *cut)
 
 
-def _what_if(start: int, end: int, change: list[dict[str, Any]]) -> Clause:
-    return Clause(start, end, Filled(_FRAME, []), [{"do": "ask", "about": "what_if", "change": change}])
+def _what_if(start: int, end: int, change: list[dict[str, Any]], *, past: bool = False) -> Clause:
+    """`past`: whether it is asked of the latest decision rather than of the present."""
+    asked = {"do": "ask", "about": "what_if", "change": change} | ({"ticks": 1} if past else {})
+    return Clause(start, end, Filled(_FRAME, []), [asked])
+
+
+def _is_past(lattice: Lattice, supposed: tuple[int, int], whole: tuple[int, int]) -> bool:
+    """Whether what is supposed is of a past moment; without a verb of its own, the question tells."""
+    if any(edge.concept == HAD_BEEN for edge in lattice.between(*supposed)):
+        return True
+    verbless = any(edge.sense == Sense(IF, WITHOUT) for edge in lattice.edges[supposed[0]])
+    return verbless and any(edge.concept == WOULD_HAVE for edge in lattice.between(*whole))
 
 
 def _before_question(divided: Divided) -> tuple[int, list[dict[str, Any]]] | None:
@@ -163,6 +180,13 @@ def _past_glue(lattice: Lattice, at: int, end: int) -> int:
     """The first token from `at` that is neither glue nor a separator."""
     while at < end:
         if any(_longest(lattice, at, concept) for concept in (WHAT_IF, IF, TEACH)):
+            return at
+        asked = _longest(lattice, at, THEN_WHAT)
+        if (
+            asked is not None
+            and (then := _past_marks(lattice, asked.end, end)) < end
+            and _longest(lattice, then, IF) is not None
+        ):
             return at
         passed = [edge.end for edge in lattice.edges[at] if edge.sense.concept in (GLUE, SEPARATOR)]
         if not passed:
@@ -190,7 +214,7 @@ def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, i
             at = _past_marks(lattice, edge.end, end)
             opening = _longest(lattice, at, IF) if at < end else None
             if opening is not None and opening.end < end:
-                yield opening.end, end, end
+                yield _supposed_from(opening), end, end
     for edge in opened:
         if edge.sense.concept == WHAT_IF and edge.end < end:
             yield edge.end, end, end
@@ -199,9 +223,14 @@ def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, i
             if asked is None:
                 continue
             if _past_marks(lattice, asked.end, end) >= end:
-                yield edge.end, at, end
+                yield _supposed_from(edge), at, end
             elif _ends_part(lattice, asked.end, end):
-                yield edge.end, at, asked.end
+                yield _supposed_from(edge), at, asked.end
+
+
+def _supposed_from(opening: Edge) -> int:
+    """Where what is supposed begins: after the word for "if", or with it where it says something itself."""
+    return opening.start if opening.sense.value == WITHOUT else opening.end
 
 
 def _past_marks(lattice: Lattice, at: int, end: int) -> int:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from service.evaluations.view import JobView, view_of
 from service.http.session_json import PREFIX
 from service.jobs import JobState
-from service.narration import evaluation_words
 from service.resources import DEFAULT_LANGUAGE
 from service.security.link_tickets import LinkTickets
 from service.store import JobRecord
-from sim.evaluate import Evaluation
 
 FORMATS = ("html", "markdown", "json", "csv")
 
@@ -31,9 +30,10 @@ def summary_json(record: JobRecord, tickets: LinkTickets | None = None) -> dict[
     """An evaluation in a list."""
     return {
         "id": record.id,
+        "kind": record.kind,
         "state": record.state,
         "created_at": record.created_at.isoformat(),
-        "title": evaluation_words(language_of(record)).title(Evaluation.from_json(record.spec)),
+        "title": job_view(record).title,
         "progress": progress(record),
         "links": evaluation_links(record.id, tickets),
     }
@@ -41,17 +41,16 @@ def summary_json(record: JobRecord, tickets: LinkTickets | None = None) -> dict[
 
 def evaluation_json(record: JobRecord, tickets: LinkTickets | None = None) -> dict[str, Any]:
     """An evaluation as it stands."""
-    spec = Evaluation.from_json(record.spec)
-    words = evaluation_words(language_of(record))
+    view = job_view(record)
     return summary_json(record, tickets) | {
-        "runs": spec.episodes,
-        "planners": spec.planners,
-        "seed": spec.seed,
+        "runs": view.runs,
+        "planners": view.planners,
+        "seed": view.seed,
         "config": record.spec["config"],
-        "same_road": spec.world is not None,
-        "conditions": [dict(case.said) for case in spec.cases],
-        "done": record.done,
-        "text": None if record.result is None else words.paragraphs(spec, record.result),
+        "same_road": view.same_road,
+        "conditions": view.conditions,
+        "done": view.done(record.done),
+        "text": None if record.result is None else view.paragraphs(record.result),
         "result": record.result,
         "error": record.error,
     }
@@ -62,6 +61,11 @@ def progress(record: JobRecord) -> float:
     if record.state == JobState.DONE:
         return 1.0
     return min(0.999, record.done / max(1, record.total))
+
+
+def job_view(record: JobRecord) -> JobView:
+    """What is told of a job, in the language of its report."""
+    return view_of(record.kind, record.spec, language_of(record))
 
 
 def language_of(record: JobRecord) -> str:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from service.actions import Ask
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.blame import Blames
+from service.narration.choices import Choices
 from service.narration.confidence import Confidences
 from service.narration.details import Details
 from service.narration.glossary import Glossary
@@ -42,6 +44,7 @@ class Answers:
         self._sayings = sayings
         self._details = Details(sayings, self.answer)
         self._moments = Moments(sayings)
+        self._choices = Choices(sayings)
         whys, settings = Whys(sayings), Settings(sayings)
         self._by_question: dict[str, Answerer] = {
             "why": whys,
@@ -83,7 +86,7 @@ class Answers:
                 told = not_so(self._sayings, error.code, error.facts)
                 return plain(self._sayings, asked.ask, asked.timeline.state, told)
         ask = asked.ask
-        if ask.ticks is not None and ask.about != "history":
+        if ask.ticks is not None and _meets_one_tick(ask):
             now = asked.timeline.tick
             text = self._sayings.say("history", "not_so_far_back", now=now)
             return plain(self._sayings, replace(ask, ticks=None), asked.timeline.state, text)
@@ -91,6 +94,8 @@ class Answers:
             return sure
         if ask.about == "history" and ask.what in ("riskiest", "similar"):
             return self._moments.answer(asked)
+        if ask.what in ("choices", "losses", "free", "matters"):
+            return self._choices.answer(asked)
         return self._by_question[ask.about].answer(asked)
 
 
@@ -102,6 +107,11 @@ def _at_the_detour(asked: Asked) -> Asked:
     return replace(asked, ask=replace(ask, what=None, tick=found.tick))
 
 
+def _meets_one_tick(ask: Ask) -> bool:
+    """Whether so many ticks back is the tick of one decision, rather than where a stretch begins."""
+    return ask.about != "history" or ask.what == "choices"
+
+
 def _at_its_tick(asked: Asked) -> Asked:
     """The question with the tick it is about: so many ticks ago, or that of the answer before."""
     ask, now = asked.ask, asked.timeline.tick
@@ -109,7 +119,7 @@ def _at_its_tick(asked: Asked) -> Asked:
         ago = max(1, round(ask.seconds / asked.timeline.state.config.step_seconds))
         ask = replace(ask, seconds=None, ticks=ago)
         asked = replace(asked, ask=ask)
-    if ask.ticks is not None and ask.about != "history" and ask.ticks <= now:
+    if ask.ticks is not None and _meets_one_tick(ask) and ask.ticks <= now:
         return replace(asked, ask=replace(ask, tick=now - ask.ticks, ticks=None))
     if ask.about == "what_if" and ask.move is not None and ask.tick is None:
         before = asked.talk.explained

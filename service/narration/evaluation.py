@@ -10,7 +10,7 @@ from typing import Any, Final
 from service.narration.conditions import Conditions
 from service.narration.inflection import capital
 from service.narration.sayings import Sayings
-from service.sessions.facts import JobAsked, JobTold
+from service.sessions.facts import JobTold
 from sim.config import Config
 from sim.evaluate.closeness import TTC_S
 from sim.evaluate.spec import Evaluation
@@ -44,19 +44,18 @@ class EvaluationWords:
         self._sayings = sayings
         self._conditions = Conditions(sayings)
 
-    def started(self, fact: JobAsked) -> str:
-        """The reply to what asks for an evaluation."""
-        spec = fact.evaluation
+    def started(self, spec: Evaluation, job: str | None) -> str:
+        """The reply to what asks for an evaluation; `job`: its id once it is started."""
         parts = {
             "runs": self._whole(spec.episodes),
             "planners": self._planners(spec),
             "conditions": self._under(spec),
             "where": self._where(spec),
         }
-        if fact.job is None:
+        if job is None:
             return self._say("asked", **parts)
         form = "one" if len(spec.planners) == 1 else "many"
-        return self._say("started", form, link=REPORT.format(id=fact.job), **parts)
+        return self._say("started", form, link=REPORT.format(id=job), **parts)
 
     def ended(self, spec: Evaluation, summary: Json, job_id: str) -> str:
         """A line for the log of the session that asked for it."""

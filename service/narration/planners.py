@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Final
 
 from service.actions import Ask
@@ -12,17 +12,55 @@ from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
 from service.narration.futures_told import CONTRARY, end_told, share_told, yes_and_no
 from service.narration.inflection import capital
+from service.narration.options import Options
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.foresight import Foresight
 from sim.explain.own_move import OwnMove, own_move
 from sim.explain.planner_character import Character, character_of
-from sim.explain.planners import PlannerDrive, PlannersHere, planner_of, planners_here
+from sim.explain.planners import Parting, PlannerDrive, PlannersHere, planner_of, planners_here
+from sim.plan import Decision
+from sim.session.timeline import Timeline
 from sim.state import SimState
+from sim.types import Move, Outcome
 
 JUDGED: Final = "judged"
 """What a question supposes that asks whether a move was good."""
+
+
+def _same(found: PlannersHere, drive: PlannerDrive) -> bool | None:
+    """Whether a planner makes the same first move as the one that drives."""
+    return None if drive.first is None or found.own.first is None else drive.first is found.own.first
+
+
+def _ends_in(outcome: Outcome) -> Callable[[PlannersHere, PlannerDrive], bool | None]:
+    """Whether a planner ends so; None where that is left to chance, or it was not run to an end."""
+
+    def ends(_found: PlannersHere, drive: PlannerDrive) -> bool | None:
+        seen = drive.foresight
+        return None if seen.by_chance or not seen.told else seen.story.outcome is outcome
+
+    return ends
+
+
+_AGREES: Final[Mapping[str | None, Callable[[PlannersHere, PlannerDrive], bool | None]]] = {
+    "same": _same,
+    "differs": lambda found, drive: None if (same := _same(found, drive)) is None else not same,
+    "stays": lambda _found, drive: None if drive.first is None else drive.first is Move.STAY,
+    "crashes": _ends_in(Outcome.CRASH),
+    "arrives": _ends_in(Outcome.SUCCESS),
+    "stuck": _ends_in(Outcome.STUCK),
+}
+"""What may be asked of one planner with yes or no, by what the question supposes."""
+
+
+def _begins(ask: Ask, timeline: Timeline) -> int | None:
+    """The past tick from which planners are run: the one asked about, else the start of what has ended."""
+    if ask.tick is not None:
+        return ask.tick
+    world = timeline.state.world
+    return None if world.outcome is Outcome.RUNNING else world.episode_start
 
 
 class Planners:
@@ -31,6 +69,7 @@ class Planners:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._options = Options(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
@@ -45,29 +84,57 @@ class Planners:
         ask, timeline = asked.ask, asked.timeline
         if ask.what == "character":
             return self._character(ask, timeline.state)
+        if ask.what == "method":
+            return self._method(ask, timeline.state)
         if ask.what == "own":
             found = own_move(timeline, ask.tick)
             judged = asked.supposes in (JUDGED, CONTRARY)
             first = yes_and_no(self._sayings, asked) if judged else {}
             return self._own(found, first), own_move_json(found)
-        here = planners_here(timeline, ask.planners)
-        return self._here(here, best=ask.what == "compare"), planners_json(here)
+        tick = _begins(ask, timeline)
+        here = planners_here(timeline, ask.planners, tick=tick)
+        parting = here.decided(here.others[0]) if len(here.others) == 1 else None
+        lines = self._here(here, parting, best=ask.what == "compare", past=tick is not None)
+        told = [self._agreed(here, asked), self._from(tick, timeline), lines]
+        values = planners_json(here)
+        if parting is not None:
+            texts = self._options.texts(parting.own), self._options.texts(parting.other)
+            values = planners_json(here, parting, texts)
+        return " ".join(part for part in told if part), values | {"from_tick": tick}
 
-    def _here(self, found: PlannersHere, *, best: bool) -> str:
+    def _from(self, tick: int | None, timeline: Timeline) -> str:
+        """From which past moment the planners were run."""
+        if tick is None:
+            return ""
+        start = timeline.state.world.episode_start
+        return self._say("since", "start" if tick == start else "tick", tick=tick)
+
+    def _agreed(self, found: PlannersHere, asked: Asked) -> str:
+        """Yes or no, where it was asked whether one planner does something; empty where it cannot be said."""
+        if len(found.others) != 1 or asked.supposes not in _AGREES:
+            return ""
+        drive = found.others[0]
+        agrees = _AGREES[asked.supposes](found, drive)
+        word = None if agrees is None else yes_and_no(self._sayings, asked)["yes" if agrees else "no"]
+        return "" if word is None else self._say("judged", "good", yes=word)
+
+    def _here(self, found: PlannersHere, parting: Parting | None, *, best: bool, past: bool = False) -> str:
         """One line for each way to drive; where they are too many words, one for each end."""
-        parts = self._lines(found, best=best, briefly=False)
+        parts = self._lines(found, best=best, briefly=False, past=past)
+        if parting is not None:
+            parts.append(Part(1, self._parting(parting)))
         if sum(len(part.text.split()) for part in parts) > MOST_WORDS:
             parts = self._lines(found, best=best, briefly=True)
         return within(parts, None)
 
-    def _lines(self, found: PlannersHere, *, best: bool, briefly: bool) -> list[Part]:
+    def _lines(self, found: PlannersHere, *, best: bool, briefly: bool, past: bool = False) -> list[Part]:
         """The lines, those that were asked about first; `briefly`: only how each ends."""
         alike: dict[tuple[str, str], list[PlannerDrive]] = {}
         for drive in found.others:
-            what = "" if briefly else self._what(found, drive, own=False)
+            what = "" if briefly else self._what(found, drive, own=False, past=past)
             alike.setdefault((what, self._end(drive.foresight)), []).append(drive)
-        lines = [self._line(found, drives, briefly) for drives in alike.values()]
-        own = self._line(found, [found.own], briefly)
+        lines = [self._line(found, drives, briefly, past) for drives in alike.values()]
+        own = self._line(found, [found.own], briefly, past)
         told = [own, *lines] if best else [*lines, own]
         if best and found.others:
             told.append(self._best(found))
@@ -76,24 +143,41 @@ class Planners:
             told.insert(0, self._say("missing", names=names))
         return [Part(0, text) for text in told]
 
-    def _line(self, found: PlannersHere, drives: Sequence[PlannerDrive], briefly: bool) -> str:
+    def _line(self, found: PlannersHere, drives: Sequence[PlannerDrive], briefly: bool, past: bool) -> str:
         """What planners do that drive alike from here on, and what comes of it."""
         first = drives[0]
         names = self._sayings.joined([self._sayings.planner(drive.planner) for drive in drives])
         own = first is found.own
         if own:
             names = self._say("driving", planner=names)
-        what = "" if briefly else self._what(found, first, own=own)
+        what = "" if briefly else self._what(found, first, own=own, past=past)
         key = "line_brief" if briefly else "line"
         return capital(self._say(key, planners=names, what=what, end=self._end(first.foresight)))
 
-    def _what(self, found: PlannersHere, drive: PlannerDrive, *, own: bool) -> str:
+    def _parting(self, parting: Parting) -> str:
+        """Where two planners part, and what each makes of the other's move."""
+        told = {
+            "own": self._sayings.planner(parting.own.planner),
+            "own_move": self._sayings.move(parting.own.move, "name"),
+            "own_of_other": self._option(parting.own, parting.other.move),
+            "other": self._sayings.planner(parting.other.planner),
+            "other_move": self._sayings.move(parting.other.move, "name"),
+            "other_of_own": self._option(parting.other, parting.own.move),
+        }
+        return self._say("parting", tick=parting.tick, **told)
+
+    def _option(self, decision: Decision, move: Move) -> str:
+        """What a decision says of a move."""
+        texts = zip(decision.options, self._options.texts(decision), strict=True)
+        return next(text for option, text in texts if option.move is move)
+
+    def _what(self, found: PlannersHere, drive: PlannerDrive, *, own: bool, past: bool) -> str:
         path, ahead = drive.foresight.story.path, 0 if own else found.parting(drive)
         if ahead is None or ahead >= len(path):
             return self._say("what", "same")
         move = self._sayings.move(path[ahead], "name")
         seconds = in_seconds(self._sayings, ahead, found.state.config)
-        return self._say("what", "later" if ahead else "now", move=move, seconds=seconds)
+        return self._say("what", "later" if ahead else "first" if past else "now", move=move, seconds=seconds)
 
     def _end(self, seen: Foresight) -> str:
         story = seen.story
@@ -112,6 +196,14 @@ class Planners:
             return self._say("best", "none")
         names = [self._sayings.planner(drive.planner) for drive in found.best]
         return self._say("best", "one", planners=self._sayings.joined(names))
+
+    def _method(self, ask: Ask, state: SimState) -> tuple[str, Json]:
+        """By what a planner chooses its moves, as the glossary has it."""
+        name = planner_of(state) if ask.planner is None else ask.planner
+        text = self._sayings.value("glossary", "terms", name, "text")
+        if text is None:
+            return self._say("no_method", planner=self._sayings.planner(name)), {"planner": name}
+        return str(text), {"planner": name}
 
     def _character(self, ask: Ask, state: SimState) -> tuple[str, Json]:
         name = planner_of(state) if ask.planner is None else ask.planner

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -20,6 +20,12 @@ from sim.types import PLACEABLE, Kind, Outcome
 
 MAX_TOLD: Final = 3
 """Things of a kind told one by one; the structured part has them all."""
+SIDES: Final[Mapping[str, Callable[[Detection], bool]]] = {
+    "left": lambda thing: thing.lanes < 0,
+    "right": lambda thing: thing.lanes > 0,
+    "behind": lambda thing: thing.rows < 0,
+}
+"""Sides that a question may be about alone, by what it supposes, and what is there."""
 MAX_MET: Final = 2
 """Things told that would be met straight on."""
 
@@ -38,7 +44,10 @@ class Scenes:
         scene = describe_percept(sense(run)[0], run.config)
         wrong = misperception(run).of(kind)
         counting = asked.supposes == "number"
-        if asked.ask.count is not None and kind is not None:
+        if asked.supposes in SIDES:
+            scene = on_side(scene, asked.supposes)
+            told = _Told(self._sayings, run, scene).on_side(asked.supposes, kind)
+        elif asked.ask.count is not None and kind is not None:
             told = _Told(self._sayings, run, scene).nearest(kind)
         else:
             told = self.text(scene, run, kind, counting=counting)
@@ -67,6 +76,11 @@ class Scenes:
         if kind is None:
             return told.everything()
         return told.number(kind) if counting else told.kind(kind)
+
+
+def on_side(scene: Scene, side: str) -> Scene:
+    """The scene with what is on one side of the ego alone: in lanes to the left or right, or behind it."""
+    return replace(scene, seen=tuple(thing for thing in scene.seen if SIDES[side](thing)))
 
 
 def nearest_alone(scene: Scene, kind: Kind) -> Scene:
@@ -125,6 +139,28 @@ class _Told:
         if not things:
             return self._say("none", things=self._noun(kind, 2))
         return " ".join([self._say("closest", thing=self._near(things[0])), *self._met(things)])
+
+    def on_side(self, side: str, kind: Kind | None) -> str:
+        """What is on one side, the nearest first, and what of it heads for the ego's lane."""
+        things = sorted(self._scene.of(kind), key=_far)
+        if not things:
+            noun = self._noun(kind, 2) if kind is not None else self._say("any_thing")
+            return self._say("side_none", side, things=noun)
+        told = [Part(0, self._say("side_some", side, things=self._near_ones(things)))]
+        toward = {"left": "right", "right": "left"}.get(side)
+        coming = [
+            thing for thing in things if thing.walks and thing.heading == toward and 0 <= thing.rows <= 1
+        ]
+        if toward is not None:
+            key = "coming" if coming else "none_coming"
+            told.append(Part(1, self._say(key, things=self._near_ones(coming))))
+        return within(told)
+
+    def _near_ones(self, things: Sequence[Detection]) -> str:
+        parts = [self._near(thing) for thing in things[:MAX_TOLD]]
+        if len(things) > MAX_TOLD:
+            parts.append(self._say("more", count=self._count(len(things) - MAX_TOLD)))
+        return self._sayings.joined(parts)
 
     def number(self, kind: Kind) -> str:
         """How many there are first; then those ahead, the nearest first."""

@@ -78,6 +78,8 @@ class WhatIfs:
     def text(self, ask: Ask, found: WhatIf) -> str:
         """What would be, in words."""
         told = []
+        if ask.tick is not None:
+            told.append(self._say("from_tick", tick=found.state.world.tick))
         if found.real.by_hand:
             told.append(self._say("by_hand"))
         if found.real.waited:

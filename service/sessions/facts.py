@@ -12,6 +12,7 @@ from service.sessions.pending import NO_TALK, Talk
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed, PlaybackSpeedSet
 from service.store import JobRecord
 from sim.evaluate import Evaluation
+from sim.falsify import Falsification
 from sim.goals import Finding
 from sim.hazard_advice import Advice
 from sim.session.edits import Applied, Change
@@ -96,9 +97,12 @@ class Chatted:
 
 @dataclass(frozen=True, slots=True)
 class JobAsked:
-    """An evaluation is asked for; `job` is its id once it is started, which a replay never does."""
+    """An evaluation or a search for failures is asked for.
 
-    evaluation: Evaluation
+    `job` is its id once it is started, which a replay never does.
+    """
+
+    evaluation: Evaluation | Falsification
     job: str | None = None
 
 

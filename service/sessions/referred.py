@@ -45,7 +45,8 @@ def explained(answer: Mapping[str, Any], actions: tuple[Action, ...]) -> Ask | N
     if ask.about in _EXPLAIN and ask.change is None and answer.get("evidence") is not None:
         which = answer.get("mover", {}).get("id")
         named = ask if which is None else replace(ask, which=Which(id=which))
-        return replace(named, tick=answer["tick"], ticks=None)
+        what = None if named.what == "detour" else named.what  # the tick stands for the moment
+        return replace(named, what=what, tick=answer["tick"], ticks=None)
     if ask.about == "history" and ask.what in ("riskiest", "similar", "closest_call"):
         tick = answer.get("moment")
         call = answer.get("closest_call")

@@ -95,7 +95,7 @@ def _look(spec: Evaluation, planner: str, index: int, solvable: bool, shows: tup
         ends = nearest
     back = min(ends, _LAST if last.outcome is Outcome.STUCK else BEFORE)
     shown = states[ends - back].world
-    pattern, thing = _pattern(states[-1], moves)
+    pattern, thing = failure_pattern(states[-1], moves)
     return Example(
         planner=planner,
         index=index,
@@ -111,7 +111,8 @@ def _look(spec: Evaluation, planner: str, index: int, solvable: bool, shows: tup
     )
 
 
-def _pattern(end: SimState, moves: list[Move | None]) -> tuple[Pattern | None, str | None]:
+def failure_pattern(end: SimState, moves: list[Move | None]) -> tuple[Pattern | None, str | None]:
+    """How an episode failed that ended so after these moves, and the kind of thing (`Example`)."""
     world = end.world
     if world.outcome is Outcome.CRASH and world.cause is not None:
         return "hit", str(kind_of(world.cause.ids[0])) if world.cause.ids else None

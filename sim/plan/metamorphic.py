@@ -147,7 +147,7 @@ def _with_pothole(drive: Drive) -> tuple[Finding | None] | None:
 
 
 def _behind(drive: Drive) -> tuple[Finding | None] | None:
-    """The relation with a barrier behind, in the middle of the drive; None where there is no place for one."""
+    """The relation with a barrier behind, midway; None where there is no place for one."""
     middle = len(drive.moves) // 2
     state = drive.states[middle]
     if state.world.outcome is not Outcome.RUNNING:

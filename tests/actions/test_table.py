@@ -42,7 +42,7 @@ def test_columns_agree(traits: ActionTraits) -> None:
     assert traits.changes_session or not traits.undo_step, "a step of undo is stored"
     assert not (traits.is_question and traits.changes_session), "a question changes nothing"
     # They change nothing, and occupy the service for long or end such work.
-    costs = traits in (BY_VERB["evaluate"], BY_VERB["evaluation"])
+    costs = traits in (BY_VERB["evaluate"], BY_VERB["evaluation"], BY_VERB["find_worst"])
     assert (traits.changes_session or costs) == (traits.model is not ModelUse.ALWAYS), (
         "a model may cause without asking what changes nothing, and only that"
     )

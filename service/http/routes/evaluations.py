@@ -10,18 +10,23 @@ import orjson
 from anyio import to_thread
 from fastapi import Body, Query, Request, Response
 
-from service.actions import Evaluate
+from service.actions import Evaluate, FindWorst
 from service.contract import answers as schemas
 from service.contract import requests as bodies
-from service.evaluations.kinds import EVALUATION
 from service.evaluations.refuse import refuse_evaluation
-from service.evaluations.request import RUNS, evaluation_of
-from service.evaluations.start import job_spec
+from service.evaluations.request import RUNS, evaluation_of, falsification_of
+from service.evaluations.start import job_spec, kind_of
 from service.http import examples
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Context, Here
 from service.http.errors import problem_responses
-from service.http.evaluation_json import evaluation_json, evaluation_links, language_of, summary_json
+from service.http.evaluation_json import (
+    evaluation_json,
+    evaluation_links,
+    job_view,
+    language_of,
+    summary_json,
+)
 from service.http.pagination import After, Limit, cursor, page_json
 from service.http.responses import json_response
 from service.http.route import api_router
@@ -55,12 +60,13 @@ from service.sessions.session import Session
 from service.store import JobRecord
 from sim.config import ConfigError
 from sim.evaluate import Evaluation, EvaluationError
+from sim.falsify import Falsification
 from sim.generation import GenerationError
 from sim.session.errors import EditError
 
 router = api_router("evaluations")
 
-_ALONE = ("runs", "planners", "scenario", "config", "road", "vary", "file")
+_ALONE = ("find", "runs", "planners", "scenario", "config", "road", "vary", "file")
 """What a sentence says itself."""
 _REPORT_POLICY = {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
@@ -110,9 +116,8 @@ async def create_evaluation(
     language = body.language or (session.language if session else DEFAULT_LANGUAGE)
     here.interpreter.languages.check(language)
     spec = await _read_evaluation(here, body, session, language)
-    record = await here.jobs.start(
-        EVALUATION, job_spec(spec, language, None if session is None else session.id), language=language
-    )
+    job = job_spec(spec, language, None if session is None else session.id)
+    record = await here.jobs.start(kind_of(spec), job, language=language)
     where = {"Location": evaluation_links(record.id)["self"]}
     return json_response(evaluation_json(record, here.guard.link_tickets), 202, where)
 
@@ -203,30 +208,25 @@ def _report(text: str, format: str) -> Response:
 def _write_progress(record: JobRecord) -> str:
     from service.evaluations.report.write import write_progress
 
-    language = language_of(record)
-    title = evaluation_words(language).title(Evaluation.from_json(record.spec))
-    return write_progress(title, language, record.done, record.total)
+    return write_progress(job_view(record).title, language_of(record), record.done, record.total)
 
 
 def _write(record: JobRecord, format: str, base: str, parts: Mapping[str, bytes]) -> str:
     """A report as text. For a thread: drawing and writing take a second."""
-    from service.evaluations.report.document import make_document
-    from service.evaluations.report.write import write_csv, write_html, write_markdown
+    from service.evaluations.report.write import write_html, write_markdown
 
-    spec = Evaluation.from_json(record.spec)
+    view, words = job_view(record), evaluation_words(language_of(record))
     if format == "csv":
-        return write_csv(spec, parts)
-    language = language_of(record)
-    words = evaluation_words(language)
+        return view.csv(parts)
     assert record.result is not None
-    document = make_document(spec, record.result, words, language, base)
+    document = view.document(record.result, base)
     return write_html(document, words) if format == "html" else write_markdown(document, words)
 
 
 async def _read_evaluation(
     here: Context, body: bodies.NewEvaluation, session: Session | None, language: str
-) -> Evaluation:
-    """The evaluation that is asked for. Raises a `ProblemError`."""
+) -> Evaluation | Falsification:
+    """The evaluation or search that is asked for. Raises a `ProblemError`."""
     if body.file is not None:
         return await to_thread.run_sync(_read_file, body, language)
     state = None if session is None else session.run
@@ -240,8 +240,7 @@ async def _read_evaluation(
             raise invalid(FieldProblem(name, "is said in the text already") for name in twice)
         action = await _read_sentence(here, body.text, session, language)
     else:
-        planners = None if body.planners is None else tuple(body.planners)
-        action = Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road, vary=body.vary)
+        action = _typed(body)
     if state is None:
         parts = {"seed": 0, **(body.config or {})}
         asked = bodies.NewSession.model_validate({"scenario": body.scenario, "config": parts})
@@ -249,16 +248,37 @@ async def _read_evaluation(
     else:
         config = state.config_of()
     try:
+        if isinstance(action, FindWorst):
+            return falsification_of(action, config, body.seed)
         return await to_thread.run_sync(evaluation_of, action, config, state, body.seed)
     except EvaluationError as error:
         raise refuse_evaluation(error, refusals(language)) from error
 
 
-async def _read_sentence(here: Context, text: str, session: Session | None, language: str) -> Evaluate:
-    """The one evaluation that a sentence asks for. Raises `Invalid`, `NotUnderstood` or `Ambiguous`."""
+def _typed(body: bodies.NewEvaluation) -> Evaluate | FindWorst:
+    """What is asked for in figures. Raises `Invalid`."""
+    planners = None if body.planners is None else tuple(body.planners)
+    if body.find is None:
+        return Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road, vary=body.vary)
+    if body.vary is not None:
+        raise invalid([FieldProblem("vary", "compares episodes; a search draws its worlds itself")])
+    if body.road is not None:
+        raise invalid([FieldProblem("road", "is what is searched for; leave it out")])
+    if planners is not None and len(planners) > 1:
+        raise invalid([FieldProblem("planners", "is one planner where its failures are searched")])
+    return FindWorst(runs=body.runs, planner=cast(Any, planners[0] if planners else None))
+
+
+async def _read_sentence(
+    here: Context, text: str, session: Session | None, language: str
+) -> Evaluate | FindWorst:
+    """The one evaluation or search that is asked for.
+
+    Raises `Invalid`, `NotUnderstood` or `Ambiguous`.
+    """
     heard = await here.interpreter.interpret(text, session, language)
     match heard.actions:
-        case (Evaluate() as action,):
+        case (Evaluate() | FindWorst() as action,):
             return action
     sentence = refusals(language).said("no_evaluation")
     raise NotUnderstood(sentence, errors=[FieldProblem("text", sentence)], understood=[text])
