@@ -14,7 +14,7 @@ from fastapi import FastAPI
 from starlette.routing import BaseRoute
 
 from service.evaluations.announce import announcer
-from service.evaluations.kinds import EvaluationJobs
+from service.evaluations.kinds import EvaluationJobs, FindWorstJobs
 from service.http import errors, openapi
 from service.http.conditional.answers import KeptAnswers
 from service.http.deps import Context
@@ -155,7 +155,7 @@ def create_app(
     clock = clock or WheelClock(late=measured.lateness.observe)
     narrator = narrator or Narrator.load()
     model = model or create_model(settings)
-    jobs = JobRunner(store, [EvaluationJobs()], make_executor)
+    jobs = JobRunner(store, [EvaluationJobs(), FindWorstJobs()], make_executor)
     manager = SessionManager(SessionServices(store, clock, narrator, settings, jobs))
     jobs.on_done = announcer(manager)
     languages = Languages.load() if language is None else Languages({DEFAULT_LANGUAGE: language})

@@ -31,10 +31,12 @@ PROBLEMS: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
         "second_vehicle_not_available": (),
         "has_no_way": (),
         "has_no_start": (),
+        "must_stay_on_the_road": (),
+        "cannot_be_done": (),
     }
 )
 """Codes of a `sim.config.Problem`. Those that end in `_not_available` are of scenarios; `has_no_way` and
-`has_no_start` are of the road of an evaluation."""
+`has_no_start` are of the road of an evaluation, `must_stay_on_the_road` and `cannot_be_done` of its rules."""
 
 EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
     {

@@ -71,6 +71,9 @@ RANGES: Final[dict[str, tuple[float, float]]] = {
     "reset_delay_s": (0.0, 60.0),
     "safety_buffer": (0, 3),
     "detection_sensitivity": (0.05, 0.95),
+    "sensor_range_m": (5.0, 150.0),
+    "sensor_noise": (0.0, 0.5),
+    "false_positive_rate": (0.0, 0.5),
     "rules": (1, RULES),
     "seed": (0, MAX_SEED),
 }
@@ -180,6 +183,12 @@ class Config(Derived):
     """how much light a camera has"""
     detection_sensitivity: float = 0.5
     """things are heeded that are believed to be there with a likelihood of at least 1 − sensitivity"""
+    sensor_range_m: float = 150.0
+    """no device sees farther than this (m), nor than its own range"""
+    sensor_noise: float = 0.0
+    """standard deviation added to measured distances, as a share of the distance"""
+    false_positive_rate: float = 0.0
+    """chance, added to its own, that a device reports something in a look that is not there"""
     dynamics: str = DEFAULT_DYNAMICS
     """how autonomous vehicles move (`sim.rules.dynamics`)"""
     behaviour: str = DEFAULT_BEHAVIOUR

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
@@ -38,6 +38,7 @@ class Kind(StrEnum):
         return self in HAZARDS
 
 
+@lru_cache(16_384)
 def kind_of(name: str) -> Kind:
     """The kind of the thing with this id ("vehicle-7"). Raises `ValueError`."""
     return Kind(name.rpartition("-")[0])

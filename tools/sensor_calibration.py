@@ -22,7 +22,7 @@ from sim.perceive import NO_BELIEF
 from sim.perceive.belief import GridBelief, probabilities
 from sim.perceive.grid_sensor import gather
 from sim.perceive.parameters import SUITES
-from sim.perceive.sensor_model import sensor_model
+from sim.perceive.sensor_model import sensor_model, tuning_of
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Outcome
@@ -59,7 +59,9 @@ def _count_ride(config: Config, found: np.ndarray) -> None:
     suite = SUITES[config.sensor]
     state = SimState.start(config)
     reach = max(
-        sensor_model(spec, config.weather, config.time_of_day, config.cell_m, config.columns).reach
+        sensor_model(
+            spec, config.weather, config.time_of_day, config.cell_m, config.columns, tuning_of(config)
+        ).reach
         for spec in suite
     )
     while state.world.outcome is Outcome.RUNNING:

@@ -15,7 +15,7 @@ from service.actions.action import (
     dump,
     load,
 )
-from service.actions.evaluation import Advise, Evaluate, FindWorst, ScenarioParts
+from service.actions.evaluation import Advise, Evaluate, EvaluationTalk, FindWorst, ScenarioParts, Varied
 from service.actions.goals import Goal, Style
 from service.actions.questions import (
     QUESTIONS,
@@ -63,6 +63,7 @@ __all__ = [
     "Choosable",
     "Drop",
     "Evaluate",
+    "EvaluationTalk",
     "FindWorst",
     "Forget",
     "Goal",
@@ -89,6 +90,7 @@ __all__ = [
     "Term",
     "Ticks",
     "Undo",
+    "Varied",
     "ViewName",
     "Where",
     "Which",

@@ -14,7 +14,7 @@ from annotated_types import Ge, Gt, Le, MaxLen, MinLen
 from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
-from service.actions.evaluation import Advise, Evaluate, FindWorst
+from service.actions.evaluation import Advise, Evaluate, EvaluationTalk, FindWorst
 from service.actions.goals import Goal, Style
 from service.actions.questions import (
     HISTORY_KEYS,
@@ -200,6 +200,7 @@ Action: TypeAlias = Annotated[
     | Ask
     | Chat
     | Evaluate
+    | EvaluationTalk
     | FindWorst
     | Advise
     | Save

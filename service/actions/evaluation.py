@@ -34,6 +34,22 @@ class ScenarioParts:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Varied:
+    """Values that are compared: an evaluation runs under each combination of them, from the same seeds."""
+
+    weather: tuple[Weather, ...] | None = None
+    time_of_day: tuple[TimeOfDay, ...] | None = None
+    sensor: tuple[SensorName, ...] | None = None
+    traffic: tuple[Traffic, ...] | None = None
+    potholes: tuple[Amount, ...] | None = None
+    vehicles: tuple[Amount, ...] | None = None
+    barriers: tuple[Amount, ...] | None = None
+    pedestrians: tuple[Amount, ...] | None = None
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Evaluate:
     """Many episodes, compared."""
 
@@ -43,6 +59,18 @@ class Evaluate:
     scenario: ScenarioParts | None = None
     road: Literal["this"] | None = None
     """the session's own road from this moment on, in place of roads that are drawn"""
+    vary: Varied | None = None
+    """conditions that are compared, such as fog with clear weather"""
+
+    __pydantic_config__ = STRICT
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EvaluationTalk:
+    """How the session's latest evaluation stands, or its end before it is done."""
+
+    do: Literal["evaluation"] = "evaluation"
+    want: Literal["progress", "cancel"]
 
     __pydantic_config__ = STRICT
 

@@ -34,7 +34,9 @@ QuestionName = Literal[
     "quiz",
     "rules",
 ]
-OutlookName = Literal["safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how", "way", "wait", "free", "matters"]
+OutlookName = Literal[
+    "safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how", "way", "wait", "free", "matters"
+]
 """What of the time ahead is asked about.
 
 `way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is;
@@ -170,7 +172,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
     "outlook": QuestionTraits(("what", "move"), ("what",), runs_episodes=True),
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
-    "planners": QuestionTraits(("what", "planners", "planner", "tick", "ticks"), ("what",), runs_episodes=True),
+    "planners": QuestionTraits(
+        ("what", "planners", "planner", "tick", "ticks"), ("what",), runs_episodes=True
+    ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
 }

@@ -14,7 +14,7 @@ from enum import StrEnum
 from typing import Final, cast
 
 from service.actions.action import ACTION_TYPES, Action, Ask, Forget, Teach
-from service.actions.evaluation import Advise, Evaluate, FindWorst
+from service.actions.evaluation import Advise, Evaluate, EvaluationTalk, FindWorst
 from service.actions.goals import Goal, Style
 from service.actions.steering import (
     Chat,
@@ -235,8 +235,9 @@ _TABLE: Final[Mapping[type, ActionTraits]] = {
         what_if=WhatIf.NO_EFFECT,
         gathers=True,
     ),
+    EvaluationTalk: ActionTraits(changes_session=False, model=ModelUse.CONFIRMED, what_if=WhatIf.NO_EFFECT),
     FindWorst: ActionTraits(
-        offered=False,
+        changes_session=False,
         separates_settings=True,
         model=ModelUse.CONFIRMED,
         what_if=WhatIf.NO_EFFECT,

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from threading import Event
-from typing import Annotated, Any, Final
+from typing import Annotated, Any, Final, TypeAlias
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from service.actions import Varied
 from service.cli.terminal import URL, ApiKey, Url, console, echo_json, fail, plain, service_at
 from service.evaluations.kinds import part_key
 from service.evaluations.request import evaluation_of
@@ -22,6 +24,8 @@ from sim.config import Config
 from sim.evaluate import Evaluation, EvaluationError, Part
 
 FORMATS: Final = {".html": "html", ".md": "markdown", ".json": "json", ".csv": "csv"}
+Ran: TypeAlias = tuple[dict[str, Any], dict[Part, bytes]]
+"""What came of an evaluation, and of its parts."""
 POLL_S: Final = 0.5
 """Seconds between two looks at an evaluation that a service runs."""
 
@@ -35,6 +39,10 @@ def evaluate(
     ] = None,
     to: Annotated[
         list[Path] | None, typer.Option(help="File of the report: .html, .md, .json or .csv. Repeatable.")
+    ] = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(help="Values to compare, for instance: traffic=light,heavy. Repeatable."),
     ] = None,
     language: Annotated[str, typer.Option(help="The language's code.")] = DEFAULT_LANGUAGE,
     service: Annotated[bool, typer.Option("--service", help="Have the running service do it.")] = False,
@@ -55,19 +63,38 @@ def evaluate(
             fail(f"A report is written as {', '.join(FORMATS)}, and not as {path.suffix or path.name}.")
         if not path.parent.is_dir():
             fail(f"There is no folder {path.parent} to write {path.name} to.")
+    if service and vary:
+        fail("--vary is for evaluations on this machine; say the conditions in the sentence.")
     if service:
         _by_service(text, seed, to or [], language, as_json, url, api_key)
     else:
-        _here(text, seed, processes or os.cpu_count() or 1, to or [], language, as_json, url)
+        _here(text, seed, processes or os.cpu_count() or 1, to or [], language, as_json, url, vary or ())
 
 
 def _here(
-    text: str, seed: int, processes: int, to: list[Path], language: str, as_json: bool, url: str
+    text: str,
+    seed: int,
+    processes: int,
+    to: list[Path],
+    language: str,
+    as_json: bool,
+    url: str,
+    vary: Sequence[str],
 ) -> None:
     """Run it on this machine."""
-    spec = _read(text, seed, language)
+    spec = _read(text, seed, language, _varied(vary))
+    report_of(spec, run_here(spec, processes, language), to, language, as_json, url)
+
+
+def run_here(spec: Evaluation, processes: int, language: str) -> Ran:
+    """The summary of an evaluation and its parts, run on this machine with a bar; Ctrl-C ends it."""
     parts: dict[Part, bytes] = {}
-    summary = _run(spec, processes, parts, language)
+    return _run(spec, processes, parts, language), parts
+
+
+def report_of(spec: Evaluation, ran: Ran, to: list[Path], language: str, as_json: bool, url: str) -> None:
+    """Print what came of an evaluation, and write its reports."""
+    summary, parts = ran
     words = evaluation_words(language)
     if as_json:
         echo_json({"spec": spec.to_json(), "result": summary})
@@ -78,9 +105,24 @@ def _here(
         typer.echo(f"{path}", err=as_json)
 
 
-def _read(text: str, seed: int, language: str) -> Evaluation:
+def _varied(options: Sequence[str]) -> Varied | None:
+    """What `--vary` says; ends the command where it is not valid."""
+    from pydantic import TypeAdapter, ValidationError
+
+    values: dict[str, list[str | int]] = {}
+    for option in options:
+        name, _, listed = option.partition("=")
+        values[name] = [int(each) if each.isdecimal() else each for each in listed.split(",")]
+    try:
+        return TypeAdapter(Varied).validate_python(values) if values else None
+    except ValidationError as error:
+        first = error.errors()[0]
+        fail(plain(f"--vary {'.'.join(map(str, first['loc']))}: {first['msg']}."))
+
+
+def _read(text: str, seed: int, language: str, vary: Varied | None = None) -> Evaluation:
     """The evaluation that a sentence asks for; ends the command with why there is none."""
-    from service.actions import Evaluate
+    from service.actions import Evaluate, FindWorst
     from service.grammar import Language
     from service.grammar.parse_types import Understood
 
@@ -96,10 +138,12 @@ def _read(text: str, seed: int, language: str) -> Evaluation:
             pass
         case (Evaluate(),):
             fail(words.said("no_road_here"))
+        case (FindWorst(),):
+            fail(words.said("search_here"))
         case _:
             fail(words.said("no_evaluation"))
     try:
-        return evaluation_of(action, Config(), seed=seed)
+        return evaluation_of(replace(action, vary=vary or action.vary), Config(), seed=seed)
     except EvaluationError as error:
         problem = error.problems[0]
         if problem.code.endswith("_not_available"):
@@ -120,7 +164,7 @@ def _run(spec: Evaluation, processes: int, parts: dict[Part, bytes], language: s
     title = evaluation_words(language).title(spec)
     try:
         with _bar() as bar:
-            task = bar.add_task(plain(title), total=spec.episodes)
+            task = bar.add_task(plain(title), total=spec.total)
             for piece, body in executor.run(partial(pack_part, spec.to_json()), spec.parts(), cancelled):
                 parts[piece] = body
                 bar.update(task, advance=piece.count)

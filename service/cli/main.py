@@ -33,6 +33,14 @@ COMMANDS: Final = {
         "service.cli.evaluate",
         "Run many episodes with one or several planners and report what came of them.",
     ),
+    "scenario": (
+        "service.cli.scenario",
+        "List, check, show, say, open, make and run scenario files.",
+    ),
+    "worst": (
+        "service.cli.worst",
+        "Search for worlds that a planner fails although they can be driven.",
+    ),
     "replay": (
         "service.cli.replay",
         "Replay a recording and compare digests. Exits with 1 when they differ.",

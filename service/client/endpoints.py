@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 from urllib.parse import quote
 
@@ -255,34 +255,51 @@ def read_regret(session: str, first: int, limit: int) -> Call[answers.Judged]:
 
 
 def run_counterfactual(
-    session: str, actions: Sequence[Json], move: str | None, at_tick: int | None, ticks: int | None
+    session: str,
+    actions: Sequence[Json],
+    move: str | None,
+    planners: tuple[str, str] | None,
+    at_tick: int | None,
+    ticks: int | None,
 ) -> Call[answers.Counterfactual]:
     """Runs a counterfactual beside the real run."""
-    body = _without_none(at_tick=at_tick, move=move, actions=list(actions) or None, ticks=ticks)
+    body = _without_none(
+        at_tick=at_tick,
+        move=move,
+        actions=list(actions) or None,
+        planners=None if planners is None else list(planners),
+        ticks=ticks,
+    )
     path = _session_path(session, "/counterfactual")
     return Call("POST", path, _json(answers.Counterfactual), body, key=new_key())
 
 
 def create_evaluation(
     text: str | None,
+    find: str | None,
     runs: int | None,
     planners: Sequence[str] | None,
     scenario: str | None,
     config: Json | None,
     session: str | None,
     road: str | None,
+    file: Json | None,
+    vary: Mapping[str, Sequence[Any]] | None,
     seed: int | None,
     language: str | None,
 ) -> Call[answers.Evaluation]:
     """Starts many episodes in the background."""
     body = _without_none(
         text=text,
+        find=find,
         runs=runs,
         planners=None if planners is None else [*planners],
         scenario=scenario,
         config=config,
         session=session,
         road=road,
+        file=file,
+        vary=vary,
         seed=seed,
         language=language,
     )

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
 from types import TracebackType
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import httpx
 from websockets.sync.client import connect
@@ -158,21 +158,26 @@ class Client:
         self,
         text: str | None = None,
         *,
+        find: str | None = None,
         runs: int | None = None,
         planners: Sequence[str] | None = None,
         scenario: str | None = None,
         config: Json | None = None,
         session: str | None = None,
         road: str | None = None,
+        file: Json | None = None,
+        vary: Mapping[str, Sequence[Any]] | None = None,
         seed: int | None = None,
         language: str | None = None,
     ) -> answers.Evaluation:
         """Starts many episodes: `evaluate("run 500 episodes with A*")`, or in figures.
 
+        With `find="worst"` worlds are searched that one planner fails although they can be driven.
+
         They are run in the background; `evaluation` says how far they are, and `report` what came of them.
         """
         call = endpoints.create_evaluation(
-            text, runs, planners, scenario, config, session, road, seed, language
+            text, find, runs, planners, scenario, config, session, road, file, vary, seed, language
         )
         return self._send(call)
 

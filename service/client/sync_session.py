@@ -139,11 +139,16 @@ class Session(InNotebook):
         self,
         *actions: Mapping[str, Any],
         move: str | None = None,
+        planners: tuple[str, str] | None = None,
         at_tick: int | None = None,
         ticks: int | None = None,
     ) -> answers.Counterfactual:
-        """What would have been, had these actions been done or another `move` been made; nothing is."""
-        return self._client._send(endpoints.run_counterfactual(self.id, actions, move, at_tick, ticks))
+        """What would have been, had these actions been done or another `move` been made; nothing is.
+
+        `planners`: two of them on the same road, from where its episode began.
+        """
+        call = endpoints.run_counterfactual(self.id, actions, move, planners, at_tick, ticks)
+        return self._client._send(call)
 
     def recording(self) -> Recording:
         """The whole session as one small file."""

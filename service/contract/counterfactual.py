@@ -57,6 +57,24 @@ class Side(Model):
     end: End
 
 
+@dataclass(frozen=True, slots=True)
+class PartingMove(Model):
+    """What one of the two does where they part."""
+
+    move: MoveName
+    text: str
+    """The move and its reason in a sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parting(Model):
+    """The first tick at which the two decide differently."""
+
+    tick: Tick
+    real: PartingMove
+    changed: PartingMove
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Counterfactual(Answered):
     """The real run from a tick on, and the other."""
@@ -70,3 +88,5 @@ class Counterfactual(Answered):
     changed: Side
     text: str = ""
     """What differs, in a sentence or two."""
+    parting: Parting | None = None
+    """Where they first decide differently; null where they never do."""

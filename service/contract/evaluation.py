@@ -11,6 +11,7 @@ from pydantic import Field
 from service.contract.model import Answered, DocumentedAs, Model, Page
 
 StateName = Annotated[str, DocumentedAs(Literal["queued", "running", "done", "failed", "cancelled"])]
+KindName = Annotated[str, DocumentedAs(Literal["evaluation", "find_worst"])]
 Fraction = Annotated[float, Field(ge=0, le=1)]
 
 
@@ -27,12 +28,14 @@ class EvaluationSummary(Answered):
     """An evaluation in a list."""
 
     id: str
+    kind: KindName
+    """What it is: episodes that are compared, or a search for worlds that a planner fails."""
     state: StateName
     created_at: str
     title: str
     """What it runs, in words."""
     progress: Fraction
-    """The share of the episodes that are done."""
+    """The share of the work that is done."""
     links: Mapping[str, str]
 
 
@@ -41,23 +44,27 @@ class Evaluation(Answered):
     """An evaluation as it stands."""
 
     id: str
+    kind: KindName
+    """What it is: episodes that are compared, or a search for worlds that a planner fails."""
     state: StateName
     created_at: str
     title: str
     """What it runs, in words."""
     runs: int
-    """Episodes of each planner."""
+    """Episodes of each planner, or worlds that are searched."""
     planners: tuple[str, ...]
     seed: int
-    """Episode i is drawn from this seed + i, for every planner."""
+    """Episode (or world) i is drawn from this seed + i, for every planner."""
     config: Mapping[str, Any]
-    """What the roads are drawn from."""
+    """What the roads are drawn from; a search draws numbers of things and layouts itself."""
     same_road: bool
     """Whether all episodes start from one road, that of the session it was asked of."""
+    conditions: tuple[Mapping[str, Any], ...]
+    """What is compared beside the planners, such as `{"weather": "fog"}`; empty where nothing is."""
     done: int
-    """Episodes that are done."""
+    """Episodes of each planner that are done, under all conditions together; or worlds that are done."""
     progress: Fraction
-    """The share of the episodes that are done."""
+    """The share of the work that is done."""
     text: tuple[str, ...] | None
     """What came of it in plain language, once it is done."""
     result: Mapping[str, Any] | None

@@ -49,6 +49,8 @@ class JudgedDecision(Model):
     """Cost lost, by the configuration's charges; null as for `ticks`."""
     lost: bool
     """Whether the goal could be reached before the move, and not after it."""
+    clearance_m: float | None = None
+    """From the vehicle to what is nearest on the road, centre to centre; null where nothing else is there."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,6 +12,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 from pydantic.warnings import UnsupportedFieldAttributeWarning
 
 from service.actions import Action, load
+from service.actions.evaluation import Varied
 from service.contract.model import Tick
 from service.contract.text import Name, StorableText, check_letters
 from service.http.config_schema import CONFIG_SCHEMA
@@ -123,7 +124,16 @@ class NewEvaluation(Sent):
         None,
         description="As a sentence, such as `run 500 episodes with A*`. Beside it: session, seed, language.",
     )
-    runs: int | None = Field(None, description="Episodes of each planner, up to 1,000,000. Default: 100.")
+    find: Literal["worst"] | None = Field(
+        None,
+        description="Search for worlds that one planner fails although they can be driven; numbers of things "
+        "and layouts are drawn. Default: run episodes.",
+    )
+    runs: int | None = Field(
+        None,
+        description="Episodes of each planner, up to 1,000,000; default 100. Of a search: worlds, up to "
+        "100,000; default 1,000.",
+    )
     planners: list[str] | None = Field(
         None,
         min_length=1,
@@ -132,6 +142,16 @@ class NewEvaluation(Sent):
     )
     scenario: StorableText | None = Field(None, description="A sentence that describes the roads.")
     config: ConfigParts | None = Field(None, description="What the roads are drawn from.")
+    vary: Varied | None = Field(
+        None,
+        description="Values that are compared, such as `weather` of `clear` and `fog`: each combination is "
+        "run from the same seeds, and all are compared with the first.",
+    )
+    file: dict[str, Any] | None = Field(
+        None,
+        description="A scenario file, as JSON (see `roadtalk scenario schema`). Beside it: runs, planners, "
+        "seed, language.",
+    )
     session: str | None = Field(
         None, max_length=64, description="Roads as in this session; alone or with a text, runs, planners."
     )

@@ -51,6 +51,8 @@ class Session(Answered):
     """The question that the session asked last, while nobody has answered it."""
     parent: Parent | None
     """Of a fork, or a session that a link opened; else null."""
+    watchers: int = 0
+    """Open streams of it, sockets and events alike."""
     links: Mapping[str, str]
 
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from service.narration import evaluation_words
+from service.evaluations.view import view_of
 from service.sessions.manager import SessionManager
 from service.store import JobRecord
-from sim.evaluate import Evaluation
 
 
 def announcer(manager: SessionManager) -> Callable[[JobRecord], None]:
@@ -17,9 +16,7 @@ def announcer(manager: SessionManager) -> Callable[[JobRecord], None]:
         session = manager.live_sessions.get(str(record.spec.get("session")))
         if session is None or session.closed or record.result is None:
             return
-        words = evaluation_words(session.language)
-        session.announce(
-            "event", None, words.ended(Evaluation.from_json(record.spec), record.result, record.id)
-        )
+        view = view_of(record.kind, record.spec, session.language)
+        session.announce("event", None, view.ended(record.result, record.id))
 
     return announce

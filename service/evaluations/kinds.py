@@ -1,4 +1,4 @@
-"""Evaluations as a kind of job."""
+"""Evaluations and searches for failures as kinds of jobs."""
 
 from __future__ import annotations
 
@@ -9,9 +9,13 @@ from typing import Any, Final
 import orjson
 
 from service.jobs.kind import Parts, Piece, Spec
+from service.resources import DEFAULT_LANGUAGE
 from sim.evaluate.spec import Evaluation, Part
+from sim.falsify import Falsification
+from sim.falsify.stages import pieces, total
 
 EVALUATION: Final = "evaluation"
+FIND_WORST: Final = "find_worst"
 
 
 class EvaluationJobs:
@@ -21,7 +25,7 @@ class EvaluationJobs:
 
     def total(self, spec: Spec) -> int:
         """See `JobKind.total`."""
-        return int(spec["episodes"])
+        return int(spec["episodes"]) * max(1, len(spec.get("cases", ())))
 
     def pieces(self, spec: Spec, parts: Parts) -> Sequence[Piece]:
         """See `JobKind.pieces`."""
@@ -41,6 +45,29 @@ class EvaluationJobs:
 @lru_cache(maxsize=4)
 def _cut(spec: bytes) -> tuple[Part, ...]:
     return tuple(Evaluation.from_json(orjson.loads(spec)).parts())
+
+
+class FindWorstJobs:
+    """Runs the stages of a search for failures; the weight of a piece is about the number of its worlds."""
+
+    name = FIND_WORST
+
+    def total(self, spec: Spec) -> int:
+        """See `JobKind.total`."""
+        return total(Falsification.from_json(spec))
+
+    def pieces(self, spec: Spec, parts: Parts) -> Sequence[Piece]:
+        """See `JobKind.pieces`."""
+        left = pieces(Falsification.from_json(spec), parts)
+        return [Piece(each.key, each.weight, each) for each in left]
+
+    def work(self, spec: Spec) -> Callable[[Piece, Callable[[], bool]], bytes]:
+        """See `JobKind.work`."""
+        return partial(_search, dict(spec))
+
+    def finish(self, spec: Spec) -> Callable[[Parts, Callable[[], bool]], dict[str, Any]]:
+        """See `JobKind.finish`."""
+        return partial(_tell, dict(spec))
 
 
 def part_key(part: Part) -> str:
@@ -66,3 +93,17 @@ def _summarize(spec: Mapping[str, Any], parts: Parts, cancelled: Callable[[], bo
     return summarize_parts(
         Evaluation.from_json(spec), {part_of(key): body for key, body in parts.items()}, cancelled
     )
+
+
+def _search(spec: Mapping[str, Any], piece: Piece, cancelled: Callable[[], bool]) -> bytes:
+    from sim.falsify.stages import run_piece
+
+    return run_piece(spec, piece.what, cancelled)
+
+
+def _tell(spec: Mapping[str, Any], parts: Parts, cancelled: Callable[[], bool]) -> dict[str, Any]:
+    from service.evaluations.cases import explain_cases
+    from sim.falsify.summary import summarize
+
+    result = summarize(Falsification.from_json(spec), parts)
+    return explain_cases(result, str(spec.get("language") or DEFAULT_LANGUAGE), cancelled)

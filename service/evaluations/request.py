@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Final
+from typing import Any, Final
 
-from service.actions import Evaluate
+from service.actions import Evaluate, FindWorst
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
+from sim.evaluate.cases import cases_of, problems_of
 from sim.evaluate.spec import MAX_EPISODES, Evaluation, EvaluationError
+from sim.falsify import Falsification
+from sim.falsify.spec import MAX_WORLDS
 from sim.planner_names import PROMISED
 from sim.randomness import MAX_SEED
 from sim.session.scenario import config_of_scenario, find_unavailable
@@ -18,6 +21,8 @@ from sim.world.notation import write
 
 RUNS: Final = 100
 """Episodes of each planner where no number is said."""
+WORLDS: Final = 1_000
+"""Worlds that are searched for failures where no number is said."""
 
 
 def evaluation_of(
@@ -38,6 +43,9 @@ def evaluation_of(
             raise EvaluationError((Problem("road", "has_no_start"),))
         world = write(state.world)
     planners = action.planners or (config.planner,)
+    vary = _varied(action)
+    if problems := problems_of(vary):
+        raise EvaluationError(problems)
     first = config.seed if config.seed <= MAX_SEED - MAX_EPISODES else 0
     spec = Evaluation(
         planners=planners,
@@ -45,13 +53,39 @@ def evaluation_of(
         config=config,
         seed=first if seed is None else seed,
         world=world,
+        cases=cases_of(vary),
     )
     spec.check_road()
     return spec
 
 
-def unavailable_part(action: Evaluate) -> Problem | None:
+def _varied(action: Evaluate) -> dict[str, tuple[Any, ...]]:
+    """The values that are compared, by setting."""
+    values = {} if action.vary is None else asdict(action.vary)
+    return {name: tuple(each) for name, each in values.items() if each is not None}
+
+
+def falsification_of(action: FindWorst, config: Config, seed: int | None = None) -> Falsification:
+    """The search for failures that is asked for; checked. `seed`: instead of that of the configuration.
+
+    Raises `EvaluationError`.
+    """
+    if missing := unavailable_part(action):
+        raise EvaluationError((missing,))
+    first = config.seed if config.seed <= MAX_SEED - MAX_WORLDS else 0
+    return Falsification(
+        planner=action.planner or config.planner,
+        worlds=WORLDS if action.runs is None else action.runs,
+        config=config,
+        seed=first if seed is None else seed,
+    )
+
+
+def unavailable_part(action: Evaluate | FindWorst) -> Problem | None:
     """The first thing that is asked for and that this version lacks."""
+    if isinstance(action, FindWorst):
+        missing = action.planner in PROMISED
+        return Problem("planner", "planner_not_available", value=action.planner) if missing else None
     for planner in action.planners or ():
         if planner in PROMISED:
             return Problem("planners", "planner_not_available", value=planner)

@@ -21,6 +21,8 @@ _ABSENT = object()
 _MEASURES = ("number", "length", "speed", "seconds", "fraction", "times", "cells")
 _SETTINGS = frozenset(("weather", "time_of_day", "traffic", "planner", "sensor", "dynamics"))
 """Of these one value holds; a second in the same breath would be said instead of the first."""
+_CONDITIONS = ("weather", "time_of_day", "road", "layout", "traffic", "sensor", "thing")
+"""What an evaluation is run under, beside the planners."""
 _EXCLUSIVE = (
     {"cell", "lane"},
     {"cell", "row"},
@@ -191,7 +193,9 @@ class _Maker:
             case "planners":
                 return self._planners(attribute) or _ABSENT
             case "eval_scenario":
-                return self.parts(without=("planner",)) or _ABSENT
+                return self.evaluated()[0] or _ABSENT
+            case "eval_vary":
+                return self.evaluated()[1] or _ABSENT
             case "asked_move":
                 return self._asked_move()
             case "steps_or_one":
@@ -335,6 +339,21 @@ class _Maker:
         if len(set(moves)) > 1:
             raise CannotBuild("two moves")
         return moves[0] if moves else _ABSENT
+
+    def evaluated(self) -> tuple[dict[str, Any], dict[str, list[Any]]]:
+        """The conditions of an evaluation: those that hold for all runs, and those that are compared."""
+        said: dict[str, list[Any]] = {}
+        for edge in self._filled.of(*_CONDITIONS):
+            key, value = edge.concept, edge.sense.value
+            if isinstance(value, Amount):
+                key, value = f"{value.of}s", value.count
+            if value in said.setdefault(key, []):
+                raise CannotBuild(f"{key} said twice")
+            said[key].append(value)
+        several = {key: values for key, values in said.items() if len(values) > 1}
+        if several.keys() & {"road", "layout"}:
+            raise CannotBuild("two kinds of road")
+        return {key: values[0] for key, values in said.items() if len(values) == 1}, several
 
     def parts(self, without: tuple[str, ...] = ()) -> dict[str, Any]:
         """The keys of a scenario, from everything said that is one."""

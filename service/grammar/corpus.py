@@ -229,6 +229,9 @@ def _rest() -> Iterator[dict[str, Any]]:
         yield {"do": "chat", "kind": kind}
     yield {"do": "evaluate", "runs": 500, "planners": ["astar", "priority"]}
     yield {"do": "evaluate", "runs": 100, "planners": ["astar"], "road": "this"}
+    yield {"do": "evaluate", "runs": 100, "vary": {"weather": ["fog", "clear"]}}
+    for want in ("progress", "cancel"):
+        yield {"do": "evaluation", "want": want}
     yield {"do": "find_worst", "runs": 200, "planner": "astar"}
     for goal in get_args(GoalName):
         if goal != "separates":

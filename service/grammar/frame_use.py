@@ -33,6 +33,7 @@ _MADE_OF = {
     "less_percent": _PART,
     "parts": _PARTS,
     "eval_scenario": _PARTS,
+    "eval_vary": _PARTS,
     "planners": frozenset(("planner",)),
     "asked_move": frozenset(("dir", "stay_word")),
     "one": frozenset(("thing",)),

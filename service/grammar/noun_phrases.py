@@ -162,9 +162,7 @@ def _gather(amounts: dict[int, list[Edge]], noun: int, *, beyond: bool = True) -
     return gathered
 
 
-def _supposed_away(
-    amounts: dict[int, list[Edge]], noun: int, without: set[int]
-) -> _Gathered | None:
+def _supposed_away(amounts: dict[int, list[Edge]], noun: int, without: set[int]) -> _Gathered | None:
     """The quantities after a word that supposes things not to be there, which may be read as "no" as well."""
     others = {
         end: [edge for edge in edges if edge.sense.value != "no"]

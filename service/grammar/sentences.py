@@ -9,6 +9,7 @@ what the language cannot say raises `Unsayable` rather than becoming something n
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import asdict
 
 from service.actions import (
     Action,
@@ -16,6 +17,7 @@ from service.actions import (
     Ask,
     Chat,
     Evaluate,
+    EvaluationTalk,
     FindWorst,
     Forget,
     Goal,
@@ -31,6 +33,7 @@ from service.actions import (
     Style,
     Teach,
     Undo,
+    Varied,
 )
 from service.grammar.sentences_of_rules import RuleSentences
 from service.grammar.sentences_of_things import Unsayable, number
@@ -157,6 +160,8 @@ class Sentences(RuleSentences):
                 return self._question(action)
             case Evaluate():
                 return self._evaluate(action)
+            case EvaluationTalk():
+                return self._say(f"evaluation_{action.want}")
             case FindWorst():
                 planner = action.planner and self._say(
                     "find_worst_planner", planner=self._value("planner", action.planner)
@@ -336,14 +341,13 @@ class Sentences(RuleSentences):
         key = str(ask.what) + ("_of" if named else "") + ("" if ask.tick is None else "_tick")
         key += "" if ask.ticks is None else "_ticks"
         move = "" if ask.move is None else self._word("asked", ask.move)
-        return self._word(ask.about, key).format(
-            planners=planners, tick=ask.tick, ticks=ask.ticks, move=move
-        )
+        return self._word(ask.about, key).format(planners=planners, tick=ask.tick, ticks=ask.ticks, move=move)
 
     def _evaluate(self, action: Evaluate) -> str:
         planners = [self._value("planner", planner) for planner in action.planners or ()]
         named = self._say("evaluate_with", planners=self._words["and"].join(planners)) if planners else ""
-        parts = self._parts(action.scenario) if action.scenario is not None else ""
+        given = [each for each in (action.scenario, *_each_varied(action.vary)) if each is not None]
+        parts = self._words["listed"].join([self._parts(each) for each in given])
         scenario = self._say("evaluate_on", parts=parts) if parts else ""
         if action.road is not None:
             if action.runs is None or parts:
@@ -378,6 +382,12 @@ class Sentences(RuleSentences):
         if value not in words:
             raise Unsayable(f"{value!r} is no value of {key}")
         return str(words[value])
+
+
+def _each_varied(vary: Varied | None) -> list[ScenarioParts]:
+    """A condition for each value that is compared, in their order."""
+    values = {} if vary is None else asdict(vary)
+    return [ScenarioParts(**{name: value}) for name, several in values.items() for value in several or ()]
 
 
 def quoted(name: str) -> str:

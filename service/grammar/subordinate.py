@@ -182,9 +182,12 @@ def _past_glue(lattice: Lattice, at: int, end: int) -> int:
         if any(_longest(lattice, at, concept) for concept in (WHAT_IF, IF, TEACH)):
             return at
         asked = _longest(lattice, at, THEN_WHAT)
-        if asked is not None and (then := _past_marks(lattice, asked.end, end)) < end:
-            if _longest(lattice, then, IF) is not None:
-                return at
+        if (
+            asked is not None
+            and (then := _past_marks(lattice, asked.end, end)) < end
+            and _longest(lattice, then, IF) is not None
+        ):
+            return at
         passed = [edge.end for edge in lattice.edges[at] if edge.sense.concept in (GLUE, SEPARATOR)]
         if not passed:
             return at

@@ -7,6 +7,7 @@ Host and origin are checked before, for every path, by `service.http.middleware`
 from __future__ import annotations
 
 from typing import Any
+from urllib.parse import parse_qs
 
 from starlette.types import Scope
 
@@ -20,13 +21,25 @@ from service.security.guard import Guard, client_of
 _GETTING = frozenset(("GET", "HEAD"))
 
 
-def check_access(scope: Scope, guard: Guard) -> None:
-    """Lets a client in, as the owner that it is. Raises `CrossSite`, `Unauthorized` or `TooManyWrongKeys`."""
+def check_access(scope: Scope, guard: Guard, *, link: bool = False) -> None:
+    """Lets a client in, as the owner that it is. Raises `CrossSite`, `Unauthorized` or `TooManyWrongKeys`.
+
+    `link`: whether a ticket for this address will do.
+    """
     if scope["method"] in _GETTING:
         _check_cross_site_get(scope)
     client = client_of(scope)
-    guard.admit(client, first_header(scope, b"authorization"))
+    if not (link and _has_ticket(scope, guard)):
+        guard.admit(client, first_header(scope, b"authorization"))
     ask_as(client)
+
+
+def _has_ticket(scope: Scope, guard: Guard) -> bool:
+    """Whether a GET without a key comes with a ticket for its address."""
+    if scope["method"] not in _GETTING or first_header(scope, b"authorization") is not None:
+        return False
+    tickets = parse_qs(scope["query_string"].decode("latin-1")).get("ticket", [])
+    return len(tickets) == 1 and guard.link_tickets.admits(scope["path"], tickets[0])
 
 
 def count_change(scope: Scope, guard: Guard) -> None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from service.evaluations.view import JobView, view_of
 from service.http.session_json import PREFIX
 from service.jobs import JobState
-from service.narration import evaluation_words
 from service.resources import DEFAULT_LANGUAGE
+from service.security.link_tickets import LinkTickets
 from service.store import JobRecord
-from sim.evaluate import Evaluation
 
 FORMATS = ("html", "markdown", "json", "csv")
 
@@ -19,36 +19,38 @@ def started_json(job_id: str) -> dict[str, Any]:
     return {"id": job_id, "links": evaluation_links(job_id)}
 
 
-def evaluation_links(job_id: str) -> dict[str, str]:
-    """Where everything of an evaluation is."""
+def evaluation_links(job_id: str, tickets: LinkTickets | None = None) -> dict[str, str]:
+    """Where everything of an evaluation is; `tickets` open its report in a browser, which has no key."""
     own = f"{PREFIX}/evaluations/{job_id}"
-    return {"self": own, "report": f"{own}/report"}
+    report = f"{own}/report"
+    return {"self": own, "report": report if tickets is None else tickets.add_to(report)}
 
 
-def summary_json(record: JobRecord) -> dict[str, Any]:
+def summary_json(record: JobRecord, tickets: LinkTickets | None = None) -> dict[str, Any]:
     """An evaluation in a list."""
     return {
         "id": record.id,
+        "kind": record.kind,
         "state": record.state,
         "created_at": record.created_at.isoformat(),
-        "title": evaluation_words(language_of(record)).title(Evaluation.from_json(record.spec)),
+        "title": job_view(record).title,
         "progress": progress(record),
-        "links": evaluation_links(record.id),
+        "links": evaluation_links(record.id, tickets),
     }
 
 
-def evaluation_json(record: JobRecord) -> dict[str, Any]:
+def evaluation_json(record: JobRecord, tickets: LinkTickets | None = None) -> dict[str, Any]:
     """An evaluation as it stands."""
-    spec = Evaluation.from_json(record.spec)
-    words = evaluation_words(language_of(record))
-    return summary_json(record) | {
-        "runs": spec.episodes,
-        "planners": spec.planners,
-        "seed": spec.seed,
+    view = job_view(record)
+    return summary_json(record, tickets) | {
+        "runs": view.runs,
+        "planners": view.planners,
+        "seed": view.seed,
         "config": record.spec["config"],
-        "same_road": spec.world is not None,
-        "done": record.done,
-        "text": None if record.result is None else words.paragraphs(spec, record.result),
+        "same_road": view.same_road,
+        "conditions": view.conditions,
+        "done": view.done(record.done),
+        "text": None if record.result is None else view.paragraphs(record.result),
         "result": record.result,
         "error": record.error,
     }
@@ -59,6 +61,11 @@ def progress(record: JobRecord) -> float:
     if record.state == JobState.DONE:
         return 1.0
     return min(0.999, record.done / max(1, record.total))
+
+
+def job_view(record: JobRecord) -> JobView:
+    """What is told of a job, in the language of its report."""
+    return view_of(record.kind, record.spec, language_of(record))
 
 
 def language_of(record: JobRecord) -> str:

@@ -39,6 +39,10 @@ EVALUATION: Examples = {
         "summary": "In figures",
         "value": {"runs": 20, "planners": ["rules", "bfs"], "config": {"potholes": 20}, "seed": 5},
     },
+    "worst": {
+        "summary": "Search for worlds that a planner fails",
+        "value": {"find": "worst", "runs": 20, "planners": ["priority"]},
+    },
 }
 REWIND: Examples = {"tick": {"summary": "Back to tick 2", "value": {"tick": 2}}}
 SAID: Examples = {

@@ -48,7 +48,7 @@ class GuardedRoute(APIRoute):
     async def handle(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answers a request that matches the path. Raises a `ProblemError`."""
         context = context_in(scope)
-        check_access(scope, context.guard)
+        check_access(scope, context.guard, link=self.policy.link)
         count_change(scope, context.guard)
         later = receive
         if scope["method"] not in _WITHOUT_BODY:

@@ -23,6 +23,8 @@ class RoutePolicy:
     """whether the body may hold a recording, which has a larger limit"""
     timed: bool = False
     """whether it is a command, whose time is in the metrics"""
+    link: bool = False
+    """whether a ticket in the query opens it where the service has a key (`service.security.link_tickets`)"""
     direct: bool = False
     """whether `service.http.middleware.direct_routes` answers it where possible"""
 

@@ -72,6 +72,7 @@ def session_json(session: Session, sentence: str | None) -> dict[str, Any]:
         "sentence": sentence,
         "pending": None if session.pending is None else session.pending.to_json(),
         "parent": parent_json(record),
+        "watchers": len(session.subscribers),
         "links": links_json(session.id),
     }
 

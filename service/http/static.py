@@ -3,7 +3,8 @@
 Starlette's `StaticFiles` reads from disk in a thread and `GZipMiddleware` compresses for every request; a
 page of many small modules is as slow as its slowest answer (`python -m bench.page`). The page names, as
 `modulepreload`, every module that its scripts import, so that a browser asks for all at once. Comments on
-lines of their own become empty lines, which keeps line numbers. No ranges: these files are small.
+lines of their own become empty lines, which keeps line numbers; casts for the type checker and indents are
+left out. No ranges: these files are small.
 """
 
 from __future__ import annotations
@@ -25,6 +26,10 @@ _IMPORT = re.compile(
     r'^(?:import|export)\b[^"\';]*?\bfrom\s+"(\.[\w./-]+)"|^import\s+"(\.[\w./-]+)"', re.MULTILINE
 )
 _COMMENT = re.compile(r"^[ \t]*(?:/\*\*(?:(?!\*/).)*\*/|//[^\n]*)[ \t]*$", re.MULTILINE | re.DOTALL)
+_CAST = re.compile(r"/\*\* @type (?:(?!\*/)[^\n])*\*/ ?")
+"""A note for the type checker within a line."""
+_STYLE_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+_INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
 _LARGE = 200_000
 """Bytes; larger modules are other projects' builds and stay as they are."""
 _Times = tuple[tuple[int, int], ...]
@@ -71,7 +76,9 @@ class StaticFile:
         """The bytes that are served, uncompressed."""
         content = self.file.read_bytes()
         if self.file.suffix == ".js" and self.file.stat().st_size < _LARGE:
-            return without_comments(content.decode()).encode()
+            return _INDENT.sub("", without_comments(content.decode())).encode()
+        if self.file.suffix == ".css":
+            return _INDENT.sub("", _STYLE_COMMENT.sub(_same_lines, content.decode())).encode()
         return content
 
     def _newest(self) -> _Content:
@@ -91,8 +98,8 @@ class StaticFile:
 class StaticPage(StaticFile):
     """An HTML page that preloads the modules of its scripts."""
 
-    def __init__(self, file: Path) -> None:
-        super().__init__(file)
+    def __init__(self, file: Path, headers: Mapping[str, str] | None = None) -> None:
+        super().__init__(file, headers)
         self._modules: list[Path] = []
 
     def sources(self) -> Iterable[Path]:
@@ -112,8 +119,12 @@ class StaticPage(StaticFile):
 
 
 def without_comments(module: str) -> str:
-    """A module without the comments on lines of their own, as many lines long."""
-    return _COMMENT.sub(lambda found: "\n" * found[0].count("\n"), module)
+    """A module without the comments on lines of their own and without casts, as many lines long."""
+    return _CAST.sub("", _COMMENT.sub(_same_lines, module))
+
+
+def _same_lines(found: re.Match[str]) -> str:
+    return "\n" * found[0].count("\n")
 
 
 def modules_of(scripts: Iterable[Path]) -> list[Path]:

@@ -36,6 +36,7 @@ from service.sessions.pending import PendingChoice, PendingQuestion
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.session import Session
 from service.sessions.utterance import Outcome, Utterance
+from service.work.turn import TurnBudget
 from sim.actions import Scenario
 from sim.config import Config
 from sim.session.config_to_actions import UndescribableError, config_to_actions
@@ -92,6 +93,7 @@ class Interpreter:
         self._confirm = confirm
         self._rephrase = rephrase
         self._parsing = CapacityLimiter(PARSERS)
+        self._turn = TurnBudget()
 
     def topic(self, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Topic:
         """What a sentence may refer to: the session's conversation, and aliases."""
@@ -118,7 +120,8 @@ class Interpreter:
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         language, topic = self.languages[code], self.topic(session, code)
         if len(text) <= MAX_INLINE_CHARS:
-            parsed = _parse(language, text, topic)
+            async with self._turn.piece():
+                parsed = _parse(language, text, topic)
         else:
             parsed = await to_thread.run_sync(_parse, language, text, topic, limiter=self._parsing)
         return answered(language, code, text, parsed, None if session is None else session.pending)
@@ -163,7 +166,7 @@ class Interpreter:
             case AmbiguousParse():
                 raise asked_by(parse, code, None if session is None else session.pending)
             case Refused():
-                refusal = self._refusal(parse, session, field, code)
+                refusal = await self._refusal(parse, session, field, code)
                 if self._model is None or parse.reason != "not_understood":
                     raise refusal
                 return await self._ask_model(self._model, text, refusal, code)
@@ -252,15 +255,21 @@ class Interpreter:
         answer = {**outcome.answer, "text": other}
         return replace(outcome, answer=answer, reply=outcome.reply.replace(text, other))
 
-    def _refusal(self, parse: Refused, session: Session | None, field: str, code: str) -> NotUnderstood:
-        suggestions = [say for say in parse.suggestions if self._would_work(say, session, code)]
+    async def _refusal(self, parse: Refused, session: Session | None, field: str, code: str) -> NotUnderstood:
+        suggestions: list[str] = []
+        for say in parse.suggestions:
+            async with self._turn.piece():
+                if self._would_work(say, session, code):
+                    suggestions.append(say)
+            if len(suggestions) == MAX_SUGGESTIONS:
+                break
         return NotUnderstood(
             parse.message,
             errors=[FieldProblem(field, parse.message)],
             reason=parse.reason,
             unparsed=parse.unparsed,
             understood=parse.understood,
-            suggestions=tuple(suggestions[:MAX_SUGGESTIONS]),
+            suggestions=tuple(suggestions),
         )
 
     def _would_work(self, say: str, session: Session | None, code: str) -> bool:

@@ -32,6 +32,8 @@ _LOG = structlog.get_logger(__name__)
 
 MAX_WAITING: Final = 20
 """Jobs that wait or run at most."""
+NEWEST: Final = 100
+"""Jobs among which the latest one of a session is looked for."""
 _ID_BYTES: Final = 12
 
 
@@ -139,6 +141,11 @@ class JobRunner:
             return [self._live.get(job.id, job) for job in await self._store.jobs(limit, before)]
         except StoreError as error:
             raise NotSaved from error
+
+    async def latest_of(self, session: str) -> JobRecord | None:
+        """The latest job of a session; None where it is not among the newest. Raises `NotSaved`."""
+        found = await self.newest(NEWEST)
+        return next((job for job in found if job.spec.get("session") == session), None)
 
     async def parts(self, job_id: str) -> Mapping[str, bytes]:
         """What the finished pieces of a job came to. Raises `NotSaved`."""

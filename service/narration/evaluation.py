@@ -7,10 +7,14 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any, Final
 
+from service.narration.conditions import Conditions
+from service.narration.inflection import capital
 from service.narration.sayings import Sayings
-from service.sessions.facts import JobAsked
+from service.sessions.facts import JobTold
+from sim.config import Config
 from sim.evaluate.closeness import TTC_S
 from sim.evaluate.spec import Evaluation
+from sim.sensor_names import DEFAULT_SENSOR
 from sim.types import Outcome
 
 REPORT: Final = "/api/v1/evaluations/{id}/report"
@@ -38,32 +42,77 @@ class EvaluationWords:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._conditions = Conditions(sayings)
 
-    def started(self, fact: JobAsked) -> str:
-        """The reply to what asks for an evaluation."""
-        spec = fact.evaluation
+    def started(self, spec: Evaluation, job: str | None) -> str:
+        """The reply to what asks for an evaluation; `job`: its id once it is started."""
         parts = {
             "runs": self._whole(spec.episodes),
             "planners": self._planners(spec),
+            "conditions": self._under(spec),
             "where": self._where(spec),
         }
-        if fact.job is None:
+        if job is None:
             return self._say("asked", **parts)
         form = "one" if len(spec.planners) == 1 else "many"
-        return self._say("started", form, link=REPORT.format(id=fact.job), **parts)
+        return self._say("started", form, link=REPORT.format(id=job), **parts)
 
     def ended(self, spec: Evaluation, summary: Json, job_id: str) -> str:
         """A line for the log of the session that asked for it."""
         told = " ".join(self._arrived(planner, summary) for planner in spec.planners)
         return self._say("done", told=told, link=REPORT.format(id=job_id))
 
+    def standing(self, fact: JobTold) -> str:
+        """The reply to "how is the evaluation going?" and "cancel the evaluation"."""
+        if not fact.known:
+            return self._say("standing", f"{fact.want}_asked")
+        job = fact.job
+        if job is None or (fact.want == "cancel" and not fact.cancelled):
+            return self._say("standing", "none" if job is None else "none_running")
+        spec = Evaluation.from_json(job.spec)
+        if job.result is not None:
+            return self.ended(spec, job.result, job.id)
+        state = "cancelled_now" if fact.cancelled else job.state
+        return self._say(
+            "standing",
+            state,
+            title=self.title(spec),
+            done=self._whole(job.done),
+            total=self._whole(job.total),
+            percent=self.percent(min(0.999, job.done / max(1, job.total))),
+            error=job.error or "",
+        )
+
     def title(self, spec: Evaluation) -> str:
         """The heading of a report."""
-        return self._say("title", runs=self._whole(spec.episodes), planners=self._planners(spec))
+        return self._say(
+            "title" if spec.world is None else "title_this",
+            runs=self._whole(spec.episodes),
+            planners=self._planners(spec),
+            conditions=self._under(spec),
+        )
+
+    def condition(self, said: Json) -> str:
+        """One of several conditions."""
+        return self._conditions.named(said)
+
+    def whole(self, config: Config) -> str:
+        """All that the roads are drawn from."""
+        return self._conditions.whole(config)
+
+    def shows(self, example: Json) -> str:
+        """The figures that an episode stands behind."""
+        known = self._sayings.words("evaluation", "report", "behind")
+        names = ["only" if name.startswith("only_") else name for name in example.get("shows", ())]
+        return self._sayings.chained([self.label("behind", name) for name in names if name in known], ", ")
 
     def paragraphs(self, spec: Evaluation, summary: Json) -> list[str]:
         """What came of it: a paragraph for each planner, each comparison, and the roads."""
-        told = [self._planner(planner, summary) for planner in spec.planners]
+        told = self._by_case(spec, summary)
+        together = [self._planner(planner, summary) for planner in spec.planners]
+        if spec.cases:
+            together[0] = self._say("together", told=together[0])
+        told += together
         told += [self._compared(each, summary) for each in summary["comparisons"]]
         told.append(self._roads(spec, summary))
         return told
@@ -102,6 +151,48 @@ class EvaluationWords:
 
     def _planners(self, spec: Evaluation) -> str:
         return self._sayings.joined([self.planner(name) for name in spec.planners])
+
+    def _under(self, spec: Evaluation) -> str:
+        """The conditions behind "100 runs with A*"; empty where all is as usual."""
+        varied = dict.fromkeys(name for case in spec.cases for name in case.said)
+        usual = self._conditions.short(spec.config, varied)
+        told = [usual] if usual else []
+        if spec.cases:
+            told.append(self._sayings.joined([self.condition(case.said) for case in spec.cases]))
+        if spec.rules:
+            form = "one" if len(spec.rules) == 1 else "many"
+            told.append(self._say("with_rules", form, count=self._whole(len(spec.rules))))
+        return f", {self._sayings.chained(told, ', ')}" if told else ""
+
+    def _by_case(self, spec: Evaluation, summary: Json) -> list[str]:
+        """What each condition came to, and what it does compared with the first."""
+        told = []
+        for case in summary.get("cases", ()):
+            arrived = " ".join(self._arrived(planner, case) for planner in spec.planners)
+            pairs = [self._compared(each, case) for each in case["comparisons"]]
+            under = capital(self.condition(case["said"]))
+            told.append(" ".join([self._say("case", condition=under, told=arrived), *pairs]))
+        effects = [self._effect(each, summary) for each in summary.get("effects", ())]
+        return [*told, " ".join(effects)] if effects else told
+
+    def _effect(self, effect: Json, summary: Json) -> str:
+        difference = effect["difference"]
+        form = "better" if difference["share"] > 0 else "worse"
+        if not effect["settled"]:
+            form = "open" if effect["only_first"] or effect["only_second"] else "alike"
+        ends = (difference["low"], difference["high"])
+        low, high = sorted((-ends[0], -ends[1])) if form == "worse" else ends
+        share = difference["share"] if form == "open" else abs(difference["share"])
+        return self._say(
+            "effect",
+            form,
+            planner=self.planner(effect["planner"]),
+            here=self.condition(summary["cases"][effect["case"]]["said"]),
+            first=self.condition(summary["cases"][0]["said"]),
+            difference=self.percent(share),
+            low=self.percent(low),
+            high=self.percent(high),
+        )
 
     def _where(self, spec: Evaluation) -> str:
         return self._say("where", "drawn" if spec.world is None else "this", seed=spec.seed)
@@ -260,4 +351,13 @@ class EvaluationWords:
                 told.append(self._say("roads", "unknown", unknown=self._whole(roads["unknown"])))
         if summary["alike"]:
             told.append(self._say("alike"))
+        if _sees_through(spec):
+            told.append(self._say("sees_through"))
         return " ".join(told)
+
+
+def _sees_through(spec: Evaluation) -> bool:
+    """Whether conditions are said that the sensor does not heed."""
+    alone = [spec.under(number).config for number in range(len(spec.cases))] or [spec.config]
+    said = any(config.weather != "clear" or config.time_of_day != "day" for config in alone)
+    return said and all(config.sensor == DEFAULT_SENSOR for config in alone)

@@ -12,13 +12,15 @@ from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
 from service.narration.futures_told import CONTRARY, end_told, share_told, yes_and_no
 from service.narration.inflection import capital
+from service.narration.options import Options
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.foresight import Foresight
 from sim.explain.own_move import OwnMove, own_move
 from sim.explain.planner_character import Character, character_of
-from sim.explain.planners import PlannerDrive, PlannersHere, planner_of, planners_here
+from sim.explain.planners import Parting, PlannerDrive, PlannersHere, planner_of, planners_here
+from sim.plan import Decision
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Move, Outcome
@@ -67,6 +69,7 @@ class Planners:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._options = Options(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
@@ -90,9 +93,14 @@ class Planners:
             return self._own(found, first), own_move_json(found)
         tick = _begins(ask, timeline)
         here = planners_here(timeline, ask.planners, tick=tick)
-        lines = self._here(here, best=ask.what == "compare", past=tick is not None)
+        parting = here.decided(here.others[0]) if len(here.others) == 1 else None
+        lines = self._here(here, parting, best=ask.what == "compare", past=tick is not None)
         told = [self._agreed(here, asked), self._from(tick, timeline), lines]
-        return " ".join(part for part in told if part), planners_json(here) | {"from_tick": tick}
+        values = planners_json(here)
+        if parting is not None:
+            texts = self._options.texts(parting.own), self._options.texts(parting.other)
+            values = planners_json(here, parting, texts)
+        return " ".join(part for part in told if part), values | {"from_tick": tick}
 
     def _from(self, tick: int | None, timeline: Timeline) -> str:
         """From which past moment the planners were run."""
@@ -102,7 +110,7 @@ class Planners:
         return self._say("since", "start" if tick == start else "tick", tick=tick)
 
     def _agreed(self, found: PlannersHere, asked: Asked) -> str:
-        """Yes or no, where it was asked whether one planner does something; nothing where it cannot be said."""
+        """Yes or no, where it was asked whether one planner does something; empty where it cannot be said."""
         if len(found.others) != 1 or asked.supposes not in _AGREES:
             return ""
         drive = found.others[0]
@@ -110,16 +118,16 @@ class Planners:
         word = None if agrees is None else yes_and_no(self._sayings, asked)["yes" if agrees else "no"]
         return "" if word is None else self._say("judged", "good", yes=word)
 
-    def _here(self, found: PlannersHere, *, best: bool, past: bool = False) -> str:
+    def _here(self, found: PlannersHere, parting: Parting | None, *, best: bool, past: bool = False) -> str:
         """One line for each way to drive; where they are too many words, one for each end."""
         parts = self._lines(found, best=best, briefly=False, past=past)
+        if parting is not None:
+            parts.append(Part(1, self._parting(parting)))
         if sum(len(part.text.split()) for part in parts) > MOST_WORDS:
             parts = self._lines(found, best=best, briefly=True)
         return within(parts, None)
 
-    def _lines(
-        self, found: PlannersHere, *, best: bool, briefly: bool, past: bool = False
-    ) -> list[Part]:
+    def _lines(self, found: PlannersHere, *, best: bool, briefly: bool, past: bool = False) -> list[Part]:
         """The lines, those that were asked about first; `briefly`: only how each ends."""
         alike: dict[tuple[str, str], list[PlannerDrive]] = {}
         for drive in found.others:
@@ -135,9 +143,7 @@ class Planners:
             told.insert(0, self._say("missing", names=names))
         return [Part(0, text) for text in told]
 
-    def _line(
-        self, found: PlannersHere, drives: Sequence[PlannerDrive], briefly: bool, past: bool
-    ) -> str:
+    def _line(self, found: PlannersHere, drives: Sequence[PlannerDrive], briefly: bool, past: bool) -> str:
         """What planners do that drive alike from here on, and what comes of it."""
         first = drives[0]
         names = self._sayings.joined([self._sayings.planner(drive.planner) for drive in drives])
@@ -147,6 +153,23 @@ class Planners:
         what = "" if briefly else self._what(found, first, own=own, past=past)
         key = "line_brief" if briefly else "line"
         return capital(self._say(key, planners=names, what=what, end=self._end(first.foresight)))
+
+    def _parting(self, parting: Parting) -> str:
+        """Where two planners part, and what each makes of the other's move."""
+        told = {
+            "own": self._sayings.planner(parting.own.planner),
+            "own_move": self._sayings.move(parting.own.move, "name"),
+            "own_of_other": self._option(parting.own, parting.other.move),
+            "other": self._sayings.planner(parting.other.planner),
+            "other_move": self._sayings.move(parting.other.move, "name"),
+            "other_of_own": self._option(parting.other, parting.own.move),
+        }
+        return self._say("parting", tick=parting.tick, **told)
+
+    def _option(self, decision: Decision, move: Move) -> str:
+        """What a decision says of a move."""
+        texts = zip(decision.options, self._options.texts(decision), strict=True)
+        return next(text for option, text in texts if option.move is move)
 
     def _what(self, found: PlannersHere, drive: PlannerDrive, *, own: bool, past: bool) -> str:
         path, ahead = drive.foresight.story.path, 0 if own else found.parting(drive)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 from service.narration.evaluation import EvaluationWords
+from service.narration.falsification import FalsificationWords
 from service.narration.goals import Goals
 from service.narration.placing import how_many_now, place_of
 from service.narration.rearranged import told_rearranged
@@ -20,6 +22,7 @@ from service.sessions.facts import (
     Dropped,
     Fact,
     JobAsked,
+    JobTold,
     PauseSet,
     Resolved,
     Stepped,
@@ -46,6 +49,7 @@ from sim.actions import (
     Trigger,
 )
 from sim.config import Config
+from sim.evaluate import Evaluation
 from sim.events import EventType
 from sim.perceive import sensor_named
 from sim.plan import traits_of
@@ -59,6 +63,10 @@ TOLD_SINGLY = 3
 """More things than this, put into cells one after another, are told at once."""
 
 
+_OF_ERRING_SENSORS: Final = ("detection_sensitivity", "sensor_range_m", "sensor_noise", "false_positive_rate")
+"""Settings that the perfect sensor does not heed."""
+
+
 class Replies:
     """Replies in one language."""
 
@@ -66,22 +74,26 @@ class Replies:
         """`sayings`: the language's."""
         self._sayings = sayings
         self._evaluations = EvaluationWords(sayings)
+        self._falsifications = FalsificationWords(sayings)
         self._goals = Goals(sayings, self._scenario, self.done)
         self._rules = Rules(sayings)
 
     def done(self, facts: tuple[Fact, ...]) -> str:
         """A sentence for each fact; questions are answered elsewhere."""
-        told = [self._told_at_once(group) for group in _grouped(facts)]
+        applied = [fact.state.config for fact in facts if isinstance(fact, Applied)]
+        end = applied[-1] if applied else None
+        told = [self._told_at_once(group, end) for group in _grouped(facts)]
         return " ".join(sentence for sentence in told if sentence)
 
-    def _told_at_once(self, group: list[Fact]) -> str:
+    def _told_at_once(self, group: list[Fact], end: Config | None) -> str:
+        """`end`: the configuration after all that was done."""
         if len(group) > 1 and _by_name(group[0]):
             return self._all_gone(group)
         if _by_cell(group[0]):
             if len(group) > TOLD_SINGLY:
                 return self._all_placed(group)
-            return " ".join(self._done(fact) for fact in group)
-        return self._done(group[-1])
+            return " ".join(self._done(fact, end) for fact in group)
+        return self._done(group[-1], end)
 
     def lesson(self, lesson: AliasChange) -> str:
         """What was taught or forgotten, as the sentence that says the same."""
@@ -91,10 +103,10 @@ class Replies:
             said = f"{said} {self._say('taught_before', sentence=lesson.before)}"
         return said
 
-    def _done(self, fact: Fact) -> str:
+    def _done(self, fact: Fact, end: Config | None) -> str:
         match fact:
             case Applied():
-                return self._applied(fact)
+                return self._applied(fact, end)
             case Resolved():
                 return self._goals.said(fact)
             case PauseSet(before=before, paused=paused):
@@ -121,14 +133,18 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
-            case JobAsked():
-                return self._evaluations.started(fact)
+            case JobAsked(evaluation=asked, job=job):
+                if isinstance(asked, Evaluation):
+                    return self._evaluations.started(asked, job)
+                return self._falsifications.started(asked, job)
+            case JobTold():
+                return self._evaluations.standing(fact)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():
                 return ""
 
-    def _applied(self, applied: Applied) -> str:
+    def _applied(self, applied: Applied, end: Config | None) -> str:
         match applied.action:
             case Add():
                 said = self._moved("add", applied.added, applied.state)
@@ -148,7 +164,7 @@ class Replies:
             case Prefer():
                 return self._preferring(applied)
             case Set(parameter=parameter) | Adjust(parameter=parameter):
-                return self._setting(parameter, applied)
+                return self._setting(parameter, applied, end)
             case Trigger() | Cancel():
                 return self._rules.told(applied)
             case Drive(move=move):
@@ -159,13 +175,14 @@ class Replies:
         started = any(event.type is EventType.EPISODE_STARTED for event in applied.events)
         return f"{self._say('road_first')} {said}" if started else said
 
-    def _setting(self, parameter: str, applied: Applied) -> str:
+    def _setting(self, parameter: str, applied: Applied, end: Config | None) -> str:
         """What was set, from what to what, and when it shows."""
         name = self._sayings.say("replies", "parameters", parameter)
         changed = {change.path: change for change in applied.changes}
         change = changed.get(f"config.{parameter}")
         if change is None:
-            value = getattr(applied.state.config, parameter, None) or AS_IT_IS.get(parameter, "")
+            now = getattr(applied.state.config, parameter, None)
+            value = AS_IT_IS.get(parameter, "") if now is None else now
             return self._say("set_already", name=name, value=self._value(parameter, value))
         after = self._value(parameter, change.after)
         if change.before is None:
@@ -179,14 +196,14 @@ class Replies:
         told = [said, self._say("on_the_road", diff=counted) if counted else ""]
         if parameter in FROM_THE_NEXT_ROAD:
             told.append(self._say("next_road" if not counted else "next_roads_too"))
-        told.append(self._without_effect(parameter, applied.state.config))
+        told.append(self._without_effect(parameter, end or applied.state.config))
         return " ".join(sentence for sentence in told if sentence)
 
     def _without_effect(self, parameter: str, config: Config) -> str:
         """That the sensor heeds no weather, light or doubt, where such a setting was changed."""
         if not sensor_named(config.sensor).faithful:
             return ""
-        if parameter == "detection_sensitivity":
+        if parameter in _OF_ERRING_SENSORS:
             return self._say("sees_all")
         worse = (parameter, getattr(config, parameter)) not in (("weather", "clear"), ("time_of_day", "day"))
         return self._say("sees_through") if parameter in ("weather", "time_of_day") and worse else ""

@@ -141,14 +141,16 @@ class _Told:
         return " ".join([self._say("closest", thing=self._near(things[0])), *self._met(things)])
 
     def on_side(self, side: str, kind: Kind | None) -> str:
-        """What is on one side, the nearest first, and what of it heads for the ego's lane in its row or the next."""
+        """What is on one side, the nearest first, and what of it heads for the ego's lane."""
         things = sorted(self._scene.of(kind), key=_far)
         if not things:
             noun = self._noun(kind, 2) if kind is not None else self._say("any_thing")
             return self._say("side_none", side, things=noun)
         told = [Part(0, self._say("side_some", side, things=self._near_ones(things)))]
         toward = {"left": "right", "right": "left"}.get(side)
-        coming = [thing for thing in things if thing.walks and thing.heading == toward and 0 <= thing.rows <= 1]
+        coming = [
+            thing for thing in things if thing.walks and thing.heading == toward and 0 <= thing.rows <= 1
+        ]
         if toward is not None:
             key = "coming" if coming else "none_coming"
             told.append(Part(1, self._say(key, things=self._near_ones(coming))))

@@ -7,6 +7,7 @@ from typing import Any
 from service.problems import RateLimited, TooManyWrongKeys, Unauthorized
 from service.security.api_key import Key
 from service.security.hosts import Hosts, is_loopback
+from service.security.link_tickets import LinkTickets
 from service.security.quotas import Quotas
 from service.security.rate_limit import RateLimiter
 from service.security.ws_tickets import Tickets
@@ -26,6 +27,7 @@ class Guard:
     def __init__(self, settings: Settings) -> None:
         self.key = Key(settings.api_key)
         self.tickets = Tickets()
+        self.link_tickets = LinkTickets(settings.api_key)
         self.hosts = Hosts(settings.allowed_hosts or "")
         per_minute = settings.changes_per_minute
         if per_minute is None and self.key.required:

@@ -16,6 +16,8 @@ from service.actions import (
     Chat,
     Drop,
     Evaluate,
+    EvaluationTalk,
+    FindWorst,
     Forget,
     Goal,
     Hide,
@@ -33,7 +35,7 @@ from service.actions import (
 )
 from service.actions.table import sets_playback_speed, types_where
 from service.evaluations.refuse import refuse_evaluation
-from service.evaluations.request import evaluation_of
+from service.evaluations.request import evaluation_of, falsification_of
 from service.problems import DoesNotFit, FieldProblem, Invalid, NotAvailable
 from service.sessions.bookmarks import MAX_BOOKMARKS, Bookmark, Bookmarked, Jumped, unknown_bookmark
 from service.sessions.facts import (
@@ -43,6 +45,7 @@ from service.sessions.facts import (
     Dropped,
     Fact,
     JobAsked,
+    JobTold,
     PauseSet,
     Resolved,
     Stepped,
@@ -139,6 +142,21 @@ def _evaluate(transaction: Transaction, action: Evaluate, _sequence: int, positi
     try:
         state = transaction.timeline.state
         return JobAsked(evaluation_of(action, state.config_of(), state))
+    except EvaluationError as error:
+        raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
+
+
+@handles(EvaluationTalk)
+def _talk_of_evaluation(
+    _transaction: Transaction, action: EvaluationTalk, _sequence: int, _position: int
+) -> JobTold:
+    return JobTold(action.want)
+
+
+@handles(FindWorst)
+def _find_worst(transaction: Transaction, action: FindWorst, _sequence: int, position: int) -> JobAsked:
+    try:
+        return JobAsked(falsification_of(action, transaction.timeline.state.config_of()))
     except EvaluationError as error:
         raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
 

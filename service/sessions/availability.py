@@ -6,7 +6,7 @@ refusals. What a scenario may name is decided by `sim.session.scenario`.
 
 from __future__ import annotations
 
-from service.actions import Action, Ask, Evaluate, Goal, Hide, Show
+from service.actions import Action, Ask, Evaluate, FindWorst, Goal, Hide, Show
 from service.actions.table import WhatIf, sets_playback_speed, traits_of
 from service.evaluations.request import unavailable_part
 from service.refusals import refusals
@@ -59,7 +59,7 @@ def refusal_of(action: Action, language: str = DEFAULT_LANGUAGE) -> str | None:
         case Scenario():
             missing = find_unavailable(action)
             return None if missing is None else words.problem(missing)
-        case Evaluate():
+        case Evaluate() | FindWorst():
             missing = unavailable_part(action)
             return None if missing is None else words.problem(missing)
         case Set() | Adjust() if sets_playback_speed(action):

@@ -7,7 +7,7 @@ a thread; whatever is written later waits for them, so that the log is in order.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from service.sessions.log import EventLog, LogEvent
 from service.sessions.messages import changed_message, tick_message
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 CHANGED = "changed"
 """Type of the line that says what an utterance did."""
 
+Told: TypeAlias = list[tuple[Event, str]]
+"""Events of one tick or action, each in words."""
+
 
 class EventFeed:
     """Writes a session's events to its log and publishes them. For the event loop's thread only."""
@@ -35,7 +38,7 @@ class EventFeed:
         self.log = EventLog(log_capacity)
         self.subscribers = Subscribers()
         self.tick_batch = TickBatch(self.subscribers)
-        self._narration: BackgroundTask[list[tuple[Event, str]]] = BackgroundTask(self._publish_late)
+        self._narration: BackgroundTask[Told] = BackgroundTask(self._publish_late)
 
     @property
     def narrating(self) -> bool:
@@ -53,7 +56,15 @@ class EventFeed:
     def log_events(self, run: SimState, part: Applied | StepResult) -> list[LogEvent]:
         """Write the events of a tick or an action to the log; returns the lines."""
         self._narration.finish()
-        return self._write(self._narrate(run, part)) if part.events else []
+        return self.write(self._narrate(run, part)) if part.events else []
+
+    def narrate_parts(self, parts: Sequence[tuple[SimState, Applied | StepResult]]) -> list[Told]:
+        """The events of each part in words, as `write` takes them; also for other threads."""
+        return [self._narrate(run, part) for run, part in parts]
+
+    def write(self, narrated: Told) -> list[LogEvent]:
+        """Write events that are in words already to the log; returns the lines."""
+        return [self.log.add(event.tick, event.type, text, event.ids, event.cell) for event, text in narrated]
 
     def log_reachability(self, notice: ReachabilityNotice) -> LogEvent:
         """Write whether the vehicle can still arrive; the line is transient: it follows from the state."""
@@ -109,13 +120,10 @@ class EventFeed:
 
         self.tick_batch.publish_now(session.timeline.tick, message)
 
-    def _narrate(self, run: SimState, part: Applied | StepResult) -> list[tuple[Event, str]]:
+    def _narrate(self, run: SimState, part: Applied | StepResult) -> Told:
         narrator = self._session.narrator
         return [(event, narrator.event(event, run)) for event in part.events]
 
-    def _write(self, narrated: list[tuple[Event, str]]) -> list[LogEvent]:
-        return [self.log.add(event.tick, event.type, text, event.ids, event.cell) for event, text in narrated]
-
-    def _publish_late(self, narrated: list[tuple[Event, str]]) -> None:
-        lines = self._write(narrated)
+    def _publish_late(self, narrated: Told) -> None:
+        lines = self.write(narrated)
         self.publish_change(None, lines[-1].text, (), lines)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from service.actions import Action, Ask, Goal, Style
 from service.sessions.bookmarks import Bookmarked, Jumped
 from service.sessions.pending import NO_TALK, Talk
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed, PlaybackSpeedSet
+from service.store import JobRecord
 from sim.evaluate import Evaluation
+from sim.falsify import Falsification
 from sim.goals import Finding
 from sim.hazard_advice import Advice
 from sim.session.edits import Applied, Change
@@ -95,10 +97,25 @@ class Chatted:
 
 @dataclass(frozen=True, slots=True)
 class JobAsked:
-    """An evaluation is asked for; `job` is its id once it is started, which a replay never does."""
+    """An evaluation or a search for failures is asked for.
 
-    evaluation: Evaluation
+    `job` is its id once it is started, which a replay never does.
+    """
+
+    evaluation: Evaluation | Falsification
     job: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class JobTold:
+    """How an evaluation stands, or its end; `job` is None where there is none, as in a replay."""
+
+    want: Literal["progress", "cancel"]
+    known: bool = False
+    """whether it was looked for"""
+    job: JobRecord | None = None
+    cancelled: bool = False
+    """whether it was under way, and is cancelled now"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +152,7 @@ Fact: TypeAlias = (
     | Chatted
     | Dropped
     | JobAsked
+    | JobTold
     | Answerable
 )
 
@@ -146,6 +164,8 @@ def spread_facts(facts: Sequence[Fact]) -> Iterator[Fact]:
             yield from fact.done
         elif isinstance(fact, JobAsked):
             yield replace(fact, job=None)
+        elif isinstance(fact, JobTold):
+            yield JobTold(fact.want)
         else:
             yield fact
 
@@ -203,7 +223,7 @@ def _changes(fact: Fact) -> tuple[Change, ...]:
             return (Change("tick", fact.before, fact.tick), *fact.changes)
         case Resolved():
             return tuple(change for each in fact.done for change in each.changes)
-        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped() | JobAsked():
+        case Asked() | Advised() | Bookmarked() | Viewed() | Chatted() | Dropped() | JobAsked() | JobTold():
             return ()
 
 

@@ -13,6 +13,7 @@ from service.sessions.facts import (
     Asked,
     Fact,
     JobAsked,
+    JobTold,
     Resolved,
     merge_changes,
     performed_actions,
@@ -47,7 +48,7 @@ def make_outcome(
         )
     answers, said = _narrate(own, facts)
     as_replayed = tuple(spread_facts(facts))
-    alike = own is narrator and not any(isinstance(fact, Resolved | JobAsked) for fact in facts)
+    alike = own is narrator and not any(isinstance(fact, Resolved | JobAsked | JobTold) for fact in facts)
     done = said if alike or not _changing(facts) else _narrate(narrator, as_replayed)[1]
     noticed = "" if notice is None else notice.text
     if notice is not None and own is not narrator:

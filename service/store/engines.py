@@ -9,9 +9,12 @@ own thread, never on the event loop.
 
 from __future__ import annotations
 
+import asyncio
 import os
 import sqlite3
 import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
@@ -58,6 +61,7 @@ class Sqlite:
         self._url = url.set(drivername="sqlite+aiosqlite")
         self._path = url.database or ""
         self._open: sqlite3.Connection | None = None
+        self._writer = ThreadPoolExecutor(1, "log")
         self.path = Path(self._path)
         self.name = f"The database {self._path}"
 
@@ -113,6 +117,16 @@ class Sqlite:
         event.listen(engine.sync_engine, "reset", _end_left_open)
         return engine
 
+    async def run(self, write: Callable[[sqlite3.Connection], None]) -> bool:
+        """Call a function with the open connection, which nobody else uses, on a thread of its own.
+
+        False where there is no connection to be had so, and nothing was done. Raises what the function does.
+        """
+        connection = self._open
+        if connection is None:
+            return False
+        return await asyncio.get_running_loop().run_in_executor(self._writer, _write_idle, connection, write)
+
     async def copy_open(self, target: Path, stopped: threading.Event) -> None:
         """Copy the database that the engine has open; reads and writes go on between the steps."""
         if self._open is None:
@@ -135,6 +149,17 @@ class Sqlite:
         """The driver's connection, which is also that of a backup: no second one may open the file."""
         self._open = sqlite3.Connection(*given, **named)
         return self._open
+
+
+def _write_idle(connection: sqlite3.Connection, write: Callable[[sqlite3.Connection], None]) -> bool:
+    """Write, unless a transaction was left open or the connection is closed."""
+    try:
+        if connection.in_transaction:
+            return False
+    except sqlite3.ProgrammingError:
+        return False
+    write(connection)
+    return True
 
 
 def _check_permissions(path: Path) -> None:

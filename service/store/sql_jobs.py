@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import AbstractAsyncContextManager
 from dataclasses import replace
 from datetime import UTC
 from typing import Any
 
 from sqlalchemy import Row, delete, insert, select, update
-from sqlalchemy.ext.asyncio import AsyncConnection
 
 from service.store.base import JobRecord
+from service.store.sql_base import SqlTransactions
 from service.store.tables import JOB_PARTS, JOBS
 
 
-class SqlJobs:
+class SqlJobs(SqlTransactions):
     """What `service.store.sql.SqlStore` does about jobs; see `Store` for each."""
-
-    def _transaction(self) -> AbstractAsyncContextManager[AsyncConnection]:
-        raise NotImplementedError
 
     async def create_job(self, record: JobRecord) -> JobRecord:
         """See `Store.create_job`."""

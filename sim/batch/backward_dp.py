@@ -22,7 +22,7 @@ from typing import Final
 
 import numpy as np
 
-from sim.batch.compiled import beside, compiled, max_ticks, steps_left
+from sim.batch.compiled import beside, max_ticks, steps_left
 from sim.batch.layout import CELL, EPISODE_TICK, LANES, OUTCOME, SWEPT
 from sim.batch.reachability import (
     ALL_FIXED,
@@ -44,6 +44,7 @@ from sim.batch.reachability import (
     someone_brakes,
     step_from,
 )
+from sim.compilation import compiled
 
 TICK, SIDEWAYS, DIAGONAL, WAITING, NEAR_FIXED, NEAR_MOVER, BUFFER = range(7)
 """Columns of a batch's table of charges (int64), as in `sim.search.costs.Weights`."""
@@ -55,11 +56,11 @@ FAR: Final = np.int32(1 << 29)
 
 
 @compiled
-def _around(board, around, last, columns, left_edge, right_edge):
+def around(board, wider, last, columns, left_edge, right_edge):
     """A board (words 0 to `last`) with the eight neighbours of its cells."""
     for w in range(last + 1):
         tall = board[w] | one_row_on(board, w, last, columns) | one_row_back(board, w, columns)
-        around[w] = beside(tall, left_edge, right_edge)
+        wider[w] = beside(tall, left_edge, right_edge)
 
 
 @compiled
@@ -70,7 +71,7 @@ def _charges(into, near, layers, ahead, last, weights, first_row, last_row, colu
     for w in range(last + 1):
         near[1, w] = layers[ahead, MOVERS, w]
     for distance in range(buffer):
-        _around(near[1 + distance], near[2 + distance], last, columns, left_edge, right_edge)
+        around(near[1 + distance], near[2 + distance], last, columns, left_edge, right_edge)
     near_fixed, near_mover = np.int32(weights[NEAR_FIXED]), np.int32(weights[NEAR_MOVER])
     for row in range(first_row, last_row + 1):
         w, shift = row // rows_per_word, np.uint64(row % rows_per_word * columns)
@@ -87,7 +88,7 @@ def _charges(into, near, layers, ahead, last, weights, first_row, last_row, colu
 
 
 @compiled
-def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge):
+def cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge):
     """What the exact search's way costs (an upper bound for the least)."""
     rows_per_word = 64 // columns
     total = 0
@@ -103,16 +104,16 @@ def _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, r
         for word in range(last + 1):
             near[1, word] = layers[ahead, MOVERS, word]
         for distance in range(weights[BUFFER]):
-            _around(near[1 + distance], near[2 + distance], last, columns, left_edge, right_edge)
+            around(near[1 + distance], near[2 + distance], last, columns, left_edge, right_edge)
             total += weights[NEAR_MOVER] if near[2 + distance, w] >> shift & _ONE else 0
     return total
 
 
 @compiled
-def _sweep(scratch, horizon, cell, last, weights, size):
+def sweep(scratch, horizon, cell, last, weights, size):
     """Cost-to-go backwards from `horizon` ticks ahead; writes the totals of the six moves now.
 
-    `scratch` and `size`: as for `_totals_of_way`.
+    `scratch` and `size`: as for `totals_of_way`.
     """
     _, layers, near, value, entering, totals = scratch
     columns, left_edge, right_edge = size
@@ -161,7 +162,7 @@ def _sweep(scratch, horizon, cell, last, weights, size):
 
 
 @compiled
-def _totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept):
+def totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept):
     """Write the totals of the six moves now, of a search that has met the goal after `ticks`.
 
     `scratch`: (now, layers, near, value, entering, totals); `size`: (columns, left_edge, right_edge).
@@ -169,12 +170,12 @@ def _totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, li
     now, layers, near = scratch[0], scratch[1], scratch[2]
     columns, left_edge, right_edge = size
     keep_shortest(layers, ticks, cell // columns, last, columns, left_edge, right_edge)
-    _around(now[ALL_FIXED], near[0], last, columns, left_edge, right_edge)
-    bound = _cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge)
+    around(now[ALL_FIXED], near[0], last, columns, left_edge, right_edge)
+    bound = cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge)
     horizon = min(bound // weights[TICK], limit)
     for ahead in range(rolled, horizon):
         roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, False)
-    _sweep(scratch, horizon, cell, last, weights, size)
+    sweep(scratch, horizon, cell, last, weights, size)
 
 
 @compiled
@@ -215,7 +216,7 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
                 now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
             )
             if ticks >= 0:
-                _totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept)
+                totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept)
                 if stands:
                     totals[:STAY] = FAR
                 if totals.min() < least:

@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from sim.batch.compiled import compiled
 from sim.batch.layout import CELL, EPISODE_TICK, FIXED, HOLES, LANES, LEFT, PLANES, RIGHT, WALKERS
+from sim.compilation import compiled
 
 _ONE: Final = np.uint64(1)
 

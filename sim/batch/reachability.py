@@ -34,10 +34,8 @@ import numpy as np
 
 from sim.batch.compiled import (
     brake,
-    compiled,
     cut_off,
     followed_board,
-    fraction,
     free_steps,
     max_ticks,
     move_movers,
@@ -45,7 +43,6 @@ from sim.batch.compiled import (
     spread,
     spread_back,
     steps_left,
-    word_at,
 )
 from sim.batch.layout import (
     ATTENTIVE,
@@ -67,6 +64,7 @@ from sim.batch.layout import (
     WALKERS,
     WORD,
 )
+from sim.compilation import compiled, fraction, word_at
 from sim.rules.traffic import Motion
 
 _ZERO: Final = np.uint64(0)

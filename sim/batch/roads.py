@@ -15,7 +15,6 @@ from typing import Final
 
 import numpy as np
 
-from sim.batch.compiled import compiled, fraction, mix, scaled, word_at
 from sim.batch.layout import (
     ATTENTIVE_KEY,
     BARRIERS,
@@ -45,6 +44,7 @@ from sim.batch.layout import (
     WORD,
 )
 from sim.batch.reachability import drivable
+from sim.compilation import compiled, fraction, mix, scaled, word_at
 from sim.generation import MAX_ATTEMPTS
 from sim.randomness import purpose_key
 from sim.types import Kind

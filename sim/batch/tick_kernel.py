@@ -23,16 +23,13 @@ import numpy as np
 
 from sim.batch.compiled import (
     brake,
-    compiled,
     cut_off,
     first_bit,
     followed_board,
-    fraction,
     free_steps,
     max_ticks,
     move_movers,
     pedestrians_walk,
-    word_at,
 )
 from sim.batch.layout import (
     ASKED,
@@ -79,6 +76,7 @@ from sim.batch.layout import (
     YIELDING,
 )
 from sim.batch.roads import begin_next
+from sim.compilation import compiled, fraction, word_at
 from sim.rules.mover_boards import PERIODS
 from sim.rules.traffic import Motion
 from sim.types import Kind

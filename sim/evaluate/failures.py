@@ -1,4 +1,4 @@
-"""Looks at failed episodes one by one: what was hit, how it was stuck, and the tick to look at."""
+"""Looks at the episodes behind the figures: what was hit, how it was stuck, and the tick to look at."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from typing import Any, Final, Literal
 
 import numpy as np
 
+from sim.evaluate.closeness import Closeness
 from sim.evaluate.executor import CancelledError
+from sim.evaluate.extremes import extremes
+from sim.evaluate.part import with_rules
 from sim.evaluate.rows import ARRIVED, NO_WAY, ROADS, Rows
 from sim.evaluate.spec import Evaluation
 from sim.state import SimState
@@ -17,12 +20,13 @@ from sim.types import Move, Outcome, kind_of
 
 MOST: Final = 30
 """Failed episodes of a planner that are looked at, the first ones."""
-SLOWEST: Final = 1
-"""Arrivals that are looked at beside them, the slowest ones."""
 BEFORE: Final = 4
 """Ticks before the end of a crash or an arrival at which it is worth looking."""
 _LAST: Final = 8
 """Moves at the end of a stuck episode that show how it is stuck."""
+
+NEAR: Final = frozenset(("ttc", "gap", "exposed"))
+"""Figures whose episodes are looked at where something came nearest."""
 
 Pattern = Literal["swinging", "waiting", "hit"]
 
@@ -46,45 +50,52 @@ class Example:
     """how it failed: moving left and right, or not at all, without getting on; or by hitting something"""
     thing: str | None = None
     """the kind of what was hit, or of what lay straight ahead where it was stuck"""
+    shows: tuple[str, ...] = ()
+    """the figures that it stands behind (`sim.evaluate.extremes`)"""
 
     def to_json(self) -> dict[str, Any]:
         """As JSON values."""
-        return asdict(self)
+        return {**asdict(self), "shows": list(self.shows)}
 
 
 def examples(spec: Evaluation, rows: Rows, cancelled: Callable[[], bool] = lambda: False) -> list[Example]:
-    """Failures of each planner, those on solvable roads first, and its slowest arrival."""
+    """Failures of each planner, those on solvable roads first, and the episodes behind its other figures."""
     solvable = rows[ROADS]["solvable"] != NO_WAY
     found = []
     for planner in spec.planners:
-        for index in _indices(rows[planner]["outcome"], rows[planner]["ticks"], solvable):
+        shown = extremes(spec, planner, rows)
+        failed = _failures(rows[planner]["outcome"], solvable)
+        for index in dict.fromkeys((*failed, *shown)):
             if cancelled():
                 raise CancelledError
-            found.append(_look(spec, planner, index, bool(solvable[index])))
+            found.append(_look(spec, planner, index, bool(solvable[index]), shown.get(index, ())))
     return found
 
 
-def _indices(outcome: Any, ticks: Any, solvable: Any) -> Iterator[int]:
+def _failures(outcome: Any, solvable: Any) -> Iterator[int]:
     failed = outcome != ARRIVED
     chosen = [*np.flatnonzero(failed & solvable)[:MOST], *np.flatnonzero(failed & ~solvable)[:MOST]][:MOST]
     yield from map(int, chosen)
-    arrived = np.flatnonzero(~failed)
-    if arrived.size:
-        yield from (
-            int(arrived[place]) for place in np.argsort(-ticks[arrived].astype(int), kind="stable")[:SLOWEST]
-        )
 
 
-def _look(spec: Evaluation, planner: str, index: int, solvable: bool) -> Example:
+def _look(spec: Evaluation, planner: str, index: int, solvable: bool, shows: tuple[str, ...] = ()) -> Example:
     states, moves = [spec.start(index, planner)], []
+    closeness, nearest = Closeness(), 0
     while states[-1].world.outcome is Outcome.RUNNING:
         done = step(states[-1])
-        states.append(done.state)
+        states.append(with_rules(states[-1], done.state))
         moves.append(None if done.decision is None else done.decision.move)
+        before = closeness.ttc_s, closeness.gap_m
+        closeness.add(states[-2], done.state, moves[-1])
+        if (closeness.ttc_s, closeness.gap_m) != before:
+            nearest = len(moves)
     last = states[-1].world
-    back = min(len(states) - 1, _LAST if last.outcome is Outcome.STUCK else BEFORE)
-    shown = states[-1 - back].world
-    pattern, thing = _pattern(states[-1], moves)
+    ends = len(states) - 1
+    if last.outcome is Outcome.SUCCESS and NEAR.intersection(shows):
+        ends = nearest
+    back = min(ends, _LAST if last.outcome is Outcome.STUCK else BEFORE)
+    shown = states[ends - back].world
+    pattern, thing = failure_pattern(states[-1], moves)
     return Example(
         planner=planner,
         index=index,
@@ -96,10 +107,12 @@ def _look(spec: Evaluation, planner: str, index: int, solvable: bool) -> Example
         solvable=solvable,
         pattern=pattern,
         thing=thing,
+        shows=shows,
     )
 
 
-def _pattern(end: SimState, moves: list[Move | None]) -> tuple[Pattern | None, str | None]:
+def failure_pattern(end: SimState, moves: list[Move | None]) -> tuple[Pattern | None, str | None]:
+    """How an episode failed that ended so after these moves, and the kind of thing (`Example`)."""
     world = end.world
     if world.outcome is Outcome.CRASH and world.cause is not None:
         return "hit", str(kind_of(world.cause.ids[0])) if world.cause.ids else None

@@ -13,6 +13,7 @@ from sim.evaluate.rows import ARRIVED, NO_WAY, ROADS, UNKNOWN, WAY, Columns, Row
 from sim.evaluate.spec import DETAILED, STATES, Evaluation, Part
 from sim.oracle.lower_bounds import can_arrive, least_ticks
 from sim.search.reactive import ImpatientError
+from sim.session.triggers import fire
 from sim.state import SimState
 from sim.transition import step
 from sim.types import Outcome
@@ -28,6 +29,9 @@ def run_part(spec: Evaluation, part: Part, cancelled: Callable[[], bool] = lambd
     Raises `CancelledError` soon after `cancelled()` is true, and `GenerationError` where a road must be
     drivable and none is found.
     """
+    if spec.cases:
+        number, first = divmod(part.first, spec.episodes)
+        return run_part(spec.under(number), Part(first, part.count), cancelled)
     close = part.first < DETAILED
     rows: Rows = {}
     for planner in spec.planners:
@@ -62,10 +66,10 @@ def drive_one(state: SimState, closeness: Closeness | None = None) -> dict[str, 
     ticks = 0
     before = state.metrics
     while state.world.outcome is Outcome.RUNNING:
-        done = step(state)
+        done, earlier = step(state), state
         if closeness is not None:
             closeness.add(state, done.state, None if done.decision is None else done.decision.move)
-        state = done.state
+        state = with_rules(earlier, done.state)
         ticks += 1
     metrics = state.metrics
     return {
@@ -76,6 +80,13 @@ def drive_one(state: SimState, closeness: Closeness | None = None) -> dict[str, 
         "diagonal": metrics.diagonal - before.diagonal,
         "stay": metrics.stay - before.stay,
     } | ({} if closeness is None else closeness.values())
+
+
+def with_rules(before: SimState, after: SimState) -> SimState:
+    """The state after a tick with the rules that were due done; none is once the episode is over."""
+    if not after.triggers or after.world.outcome is not Outcome.RUNNING:
+        return after
+    return fire(before, after)[0]
 
 
 def _roads(spec: Evaluation, part: Part, rows: Rows, close: bool, cancelled: Callable[[], bool]) -> Columns:
@@ -95,6 +106,8 @@ def _roads(spec: Evaluation, part: Part, rows: Rows, close: bool, cancelled: Cal
     for place in range(part.count) if close else np.flatnonzero(~arrived).tolist():
         if cancelled():
             raise CancelledError
+        if spec.rules:
+            continue  # what they do to the road is no part of a proof
         start = spec.start(part.first + place, spec.planners[0])
         try:
             if close:

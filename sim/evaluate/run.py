@@ -12,6 +12,7 @@ from sim.evaluate.part import run_part
 from sim.evaluate.rows import join, pack, unpack
 from sim.evaluate.spec import Evaluation, Part
 from sim.evaluate.summary import summarize
+from sim.evaluate.summary_of_cases import summarize_cases
 
 
 def pack_part(spec: Mapping[str, Any], piece: Part, cancelled: Callable[[], bool]) -> bytes:
@@ -25,8 +26,14 @@ def summarize_parts(
     """The summary of all parts. Raises `ValueError` unless each episode is there once."""
     ordered = sorted(parts)
     edges = [0, *(part.first + part.count for part in ordered)]
-    if edges[:-1] != [part.first for part in ordered] or edges[-1] != spec.episodes:
+    if edges[:-1] != [part.first for part in ordered] or edges[-1] != spec.total:
         raise ValueError("episodes are missing, or there twice")
+    if spec.cases:
+        cases = [
+            join([unpack(parts[part]) for part in ordered if part.first // spec.episodes == number])
+            for number in range(len(spec.cases))
+        ]
+        return summarize_cases(spec, cases, cancelled)
     return summarize(spec, join([unpack(parts[part]) for part in ordered]), cancelled)
 
 

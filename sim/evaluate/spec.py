@@ -8,12 +8,17 @@ from functools import cached_property
 from typing import Any, Final
 
 from sim import planner_names
+from sim.actions import Add, Copy, MoveThings, Pause, Remove, Replace, SetCount, Swap, Trigger
 from sim.config import COUNTS, Config, ConfigError, Problem
+from sim.evaluate.cases import MAX_CASES, SENSING, Case, config_under
 from sim.generation import GenerationError, generate
 from sim.oracle.lower_bounds import can_arrive
 from sim.randomness import MAX_SEED
 from sim.rules.compiled import COMPILED_KINDS, compiled_rules
 from sim.search.reactive import ImpatientError
+from sim.session.edits import apply
+from sim.session.errors import EditError
+from sim.session.rule_values import rule_of, rule_values
 from sim.session.saved_config import saved_config
 from sim.state import SimState
 from sim.types import Outcome
@@ -33,6 +38,9 @@ LIVE_PART: Final = 20
 """Episodes of a part where a planner is asked one decision at a time."""
 DETAILED: Final = 200
 """Episodes, from the first one, that are followed tick by tick for how near things came."""
+IN_AN_EPISODE: Final = (Add, Remove, SetCount, MoveThings, Swap, Replace, Copy, Pause)
+"""What rules may do in an evaluation; a pause does nothing there. Others would begin another road, or change
+what is compared."""
 STATES: Final = 20_000
 """States that are searched to prove a road, before it counts as not known."""
 
@@ -59,7 +67,8 @@ class Evaluation:
 
     Episode i is the first one of the configuration with the seed `seed` + i, the same for every planner.
     With a `world`, every episode starts from that one (`sim.world.notation`), and the seed decides only what
-    is left to chance.
+    is left to chance. With `cases`, every planner drives all of them under each, and there are `total`
+    episodes: those of the first case come first, then those of the second, each from the same seeds.
     """
 
     planners: tuple[str, ...]
@@ -67,6 +76,9 @@ class Evaluation:
     config: Config = field(default_factory=Config)
     seed: int = 0
     world: str | None = None
+    cases: tuple[Case, ...] = ()
+    rules: tuple[Trigger, ...] = ()
+    """rules that stand from the beginning of every episode (`sim.session.triggers`)"""
 
     def __post_init__(self) -> None:
         names = tuple(dict.fromkeys(planner_names.canonical(name) for name in self.planners))
@@ -76,8 +88,9 @@ class Evaluation:
         object.__setattr__(self, "config", replace(self.config, planner=names[0], seed=self.seed))
 
     def _problems(self) -> Iterator[Problem]:
-        if not 1 <= self.episodes <= MAX_EPISODES:
-            yield Problem("episodes", "must_be_between", low=1, high=MAX_EPISODES)
+        most = MAX_EPISODES // max(1, len(self.cases))
+        if not 1 <= self.episodes <= most:
+            yield Problem("episodes", "must_be_between", low=1, high=most)
         elif not 0 <= self.seed <= MAX_SEED - self.episodes:
             yield Problem("seed", "must_be_between", low=0, high=MAX_SEED - self.episodes)
         if not 1 <= len(self.planners) <= MAX_PLANNERS:
@@ -87,16 +100,50 @@ class Evaluation:
                 self.config.with_parts(planner=name)
             except ConfigError as error:
                 yield from (Problem("planners", each.code, **each.facts) for each in error.problems)
+        yield from self._case_problems()
+        if not all(isinstance(action, IN_AN_EPISODE) for rule in self.rules for action in rule.then):
+            yield Problem("rules", "must_stay_on_the_road")
+
+    def _case_problems(self) -> Iterator[Problem]:
+        if len(self.cases) > MAX_CASES:
+            yield Problem("conditions", "must_be_between", low=1, high=MAX_CASES)
+        for case in self.cases:
+            if self.world is not None and any(name not in SENSING for name in case.said):
+                yield Problem("conditions", "must_be_a_list_of", choices=SENSING)
+                return
+            try:
+                config_under(self.config, case)
+            except ConfigError as error:
+                yield from error.problems
+                return
+
+    @property
+    def total(self) -> int:
+        """Episodes of each planner under all conditions together."""
+        return self.episodes * max(1, len(self.cases))
+
+    def under(self, number: int) -> Evaluation:
+        """The evaluation of one case, as one that has no others."""
+        return replace(self, config=config_under(self.config, self.cases[number]), cases=())
 
     def check_road(self) -> None:
         """Raises `EvaluationError` where the road is known to have no way to the goal."""
+        if self.cases:
+            for number in range(len(self.cases)):
+                self.under(number).check_road()
+            return
         try:
             if self.world is None:
                 generate(self.config, 1)
-                return
+                if not self.rules:
+                    return
             state = self.start(0, self.planners[0])
+            if self.rules:
+                return  # what they do to the road is no part of a proof
             if can_arrive(state, STATES):
                 return
+        except EditError as error:
+            raise EvaluationError((Problem("rules", "cannot_be_done"),)) from error
         except (GenerationError, ImpatientError) as error:
             if isinstance(error, ImpatientError):
                 return
@@ -115,11 +162,14 @@ class Evaluation:
     @property
     def alike(self) -> bool:
         """Whether all episodes of a planner are the same: one road, and nothing on it is left to chance."""
-        return self.world is not None and self.config.certain
+        return self.world is not None and self.config.certain and not self.rules
 
     def start(self, index: int, planner: str) -> SimState:
         """How an episode begins. Raises `GenerationError`."""
-        return SimState.start(replace(self.config, seed=self.seed + index, planner=planner), self.road)
+        state = SimState.start(replace(self.config, seed=self.seed + index, planner=planner), self.road)
+        for rule in self.rules:
+            state = apply(state, rule).state
+        return state
 
     @property
     def part_size(self) -> int:
@@ -138,6 +188,7 @@ class Evaluation:
         config = self.config
         return (
             self.world is None
+            and not self.rules
             and config.layout is None
             and compiled_rules(config)
             and not any(getattr(config, name) for kind, name in COUNTS.items() if kind not in COMPILED_KINDS)
@@ -145,6 +196,12 @@ class Evaluation:
 
     def parts(self) -> list[Part]:
         """The evaluation cut into pieces of work: the first ones, which are followed closely, are small."""
+        if self.cases:
+            return [
+                Part(number * self.episodes + part.first, part.count)
+                for number in range(len(self.cases))
+                for part in self.under(number).parts()
+            ]
         edge, size = min(DETAILED, self.episodes), self.part_size
         firsts = [*range(0, edge, LIVE_PART), *range(edge, self.episodes, size)]
         ends = [*firsts[1:], self.episodes]
@@ -158,6 +215,8 @@ class Evaluation:
             "config": asdict(self.config),
             "seed": self.seed,
             "world": self.world,
+            "cases": [case.to_json() for case in self.cases],
+            "rules": [rule_values(rule) for rule in self.rules],
         }
 
     @staticmethod
@@ -167,4 +226,6 @@ class Evaluation:
         parts = {name: value for name, value in values.items() if name in known}
         parts["planners"] = tuple(parts["planners"])
         parts["config"] = saved_config(parts["config"])
+        parts["cases"] = tuple(map(Case.from_json, parts.get("cases", ())))
+        parts["rules"] = tuple(map(rule_of, parts.get("rules", ())))
         return Evaluation(**parts)

@@ -20,8 +20,10 @@ VERSION: Final = 1
 DIAGONAL: Final = 2**0.5
 
 
-def summarize(spec: Evaluation, rows: Rows, cancelled: Callable[[], bool] = lambda: False) -> dict[str, Any]:
-    """All figures as JSON values; the same for the same evaluation."""
+def summarize(
+    spec: Evaluation, rows: Rows, cancelled: Callable[[], bool] = lambda: False, *, look: bool = True
+) -> dict[str, Any]:
+    """All figures as JSON values; the same for the same evaluation. `look`: drive examples again."""
     roads = rows[ROADS]
     comparisons = [compare(spec, (spec.planners[0], other), rows) for other in spec.planners[1:]]
     return {
@@ -35,7 +37,7 @@ def summarize(spec: Evaluation, rows: Rows, cancelled: Callable[[], bool] = lamb
         },
         "planners": {planner: _figures(spec, rows[planner], roads) for planner in spec.planners},
         "comparisons": comparisons,
-        "examples": [each.to_json() for each in examples(spec, rows, cancelled)],
+        "examples": [each.to_json() for each in examples(spec, rows, cancelled)] if look else [],
     }
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from sim.decide import decide
-from sim.explain.facts import Explanation
 from sim.explain.factors import is_factor
+from sim.explain.facts import Explanation
 from sim.explain.foresight import driving, running_state
 from sim.explain.question_error import QuestionError
 from sim.explain.why_causes import explain_why

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from sim.episode_record import Sake, detour_reason
+from sim.explain.effort import prepare
 from sim.plan import Decision, traits_of
 from sim.state import SimState, StepResult
 from sim.transition import step
@@ -117,6 +118,7 @@ def rollout(
     So is that of one that has failed `MAX_FAULTS` times running; and on long roads a planner that searches is
     followed for so long only as `MAX_WORK` allows.
     """
+    prepare(state)
     work = faults = 0
     planners = [each.planner or state.config.planner for each in state.egos.values()]
     searching = sum(traits_of(planner).plans_to_goal for planner in planners)

@@ -13,6 +13,7 @@ from typing import Final, TypeAlias
 
 from sim.config import Config
 from sim.decide import INTO_ANOTHER, decide_on, sense
+from sim.explain.effort import prepare
 from sim.explain.question_error import QuestionError
 from sim.forecast import Forecast
 from sim.perceive import Belief, sensor_named
@@ -76,6 +77,7 @@ class Futures:
     """the configuration for ticks that are drawn one unlike the other"""
 
     def __post_init__(self) -> None:
+        prepare(self.start)
         config = self.start.config
         self._root = _Node(self.start.with_ego(self.ego, mode=Mode.AUTO))
         self._number = self.start.number(self.ego)

@@ -11,15 +11,16 @@ thing can, but no change of the road takes it away.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from sim.actions import Add, Where, WorldAction
 from sim.config import Config
 from sim.decide import announced_before, decide_on, sense
-from sim.explain.effort import WorkSpentError, work_of
+from sim.explain.effort import WorkSpentError, prepare, work_of
 from sim.explain.factors import factors, is_factor, removal, without
 from sim.explain.facts import Counterfactual, QuestionError
+from sim.explain.quick_moves import QuickMoves, SeenOtherwise
 from sim.perceive import Percept, sensor_named
 from sim.plan import Decision
 from sim.session.edits import apply
@@ -53,12 +54,17 @@ class Intervention:
         self.state = state
         self.decision = decision
         self.ego = decision.av
+        prepare(state)
         announced = announced_before(state, self.ego) if announced is None else announced
         self.percept = sense(state, announced, self.ego)[0]
         """what was seen when it was taken"""
         self.faithful = not announced and sensor_named(state.config.sensor).faithful
         """whether not to be seen is the same as not to be there: for it and for who decides before it"""
         self.factors = factors(state.config_of(self.ego))
+        self.quick: QuickMoves | None = None
+        """what finds moves many at once, where that can be"""
+        if self.faithful and QuickMoves.answers(state, decision, self.percept):
+            self.quick = QuickMoves(state.config_of(self.ego), self.percept, decision.move)
         self.count = 0
         self._work, self._most = 0, most
         self._known: dict[tuple[str, frozenset[str]], Move] = {}
@@ -72,17 +78,28 @@ class Intervention:
         """The move without this one alone, if that was tried."""
         return self._known.get(("without", frozenset((name,))))
 
+    def remember_without(self, name: str, move: Move) -> None:
+        """Remember the move without this one alone, found elsewhere."""
+        self._known[("without", frozenset((name,)))] = move
+
     def without(self, names: Iterable[str]) -> Move:
         """The move had these things not been detected, or these wishes never been said."""
         key = ("without", frozenset(names))
         if key not in self._known:
-            self._known[key] = self.decision_without(key[1]).move
+            otherwise = None if self.quick is None else self.quick.without(key[1])
+            if otherwise is None:
+                self._known[key] = self.decision_without(key[1]).move
+            else:
+                (self._known[key],) = self.made_after([otherwise])
         return self._known[key]
 
     def keeping(self, names: Iterable[str]) -> Move:
         """The move had nothing but these been detected."""
         key = ("keeping", frozenset(names))
         if key not in self._known:
+            if self.quick is not None:
+                (self._known[key],) = self.made_after([self.quick.keeping(key[1])])
+                return self._known[key]
             gone = [name for name in self.factors if name not in key[1]]
             config = without(self.state.config, gone) if gone else self.state.config
             self._known[key] = self._decide(self._with(config), self.percept.keeping(_things(key[1]))).move
@@ -149,6 +166,19 @@ class Intervention:
             hazards={**seen.hazards, **dict.fromkeys(cells, Kind.BARRIER.value)},
         )
         return self._decide(self._with(without(self.state.config, gone)), seen).move
+
+    def made_after(self, changes: Sequence[SeenOtherwise]) -> list[Move]:
+        """The move after each of these changes of what is seen. Precondition: `quick`.
+
+        Raises `WorkSpentError` where there is no work left for all of them.
+        """
+        assert self.quick is not None
+        work = len(changes) * self.quick.work
+        if self._most is not None and self._work + work > self._most + self.quick.work:
+            raise WorkSpentError
+        self._work += work
+        self.count += len(changes)
+        return self.quick.moves(changes)
 
     def counterfactual(self, names: Iterable[str], move: Move) -> Counterfactual:
         """The smallest intervention that removes these names and leads to `move`.

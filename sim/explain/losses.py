@@ -1,7 +1,7 @@
 """What the decisions of an episode have cost against the quickest way, each from its own moment.
 
-The quickest ways before and after each move are searched (`sim.oracle.lower_bounds`), so a loss is exact where
-nothing is left to chance. Where it is, nothing is claimed.
+The quickest ways before and after each move are searched (`sim.oracle.lower_bounds`), so a loss is exact
+where nothing is left to chance. Where it is, nothing is claimed.
 """
 
 from __future__ import annotations

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
+from sim.explain.episode_rollout import decided, rollout
 from sim.explain.foresight import Foresight, driving, foresee, running_state
 from sim.explain.moments import state_at
 from sim.explain.question_error import QuestionError
-from sim.plan import planner_named
+from sim.plan import Decision, planner_named
 from sim.planner_names import BUILT_IN, canonical
 from sim.session.timeline import Timeline
 from sim.state import SimState
@@ -30,6 +32,15 @@ class PlannerDrive:
 
 
 @dataclass(frozen=True, slots=True)
+class Parting:
+    """The first tick in which two planners decide otherwise, and both decisions about that one situation."""
+
+    tick: int
+    own: Decision
+    other: Decision
+
+
+@dataclass(frozen=True, slots=True)
 class PlannersHere:
     """Planners from one moment on, beside the one that drives."""
 
@@ -38,6 +49,8 @@ class PlannersHere:
     others: tuple[PlannerDrive, ...]
     missing: tuple[str, ...]
     """those asked about that there are not"""
+    ego: str | None = None
+    """the one that is driven; None: the first"""
 
     def parting(self, other: PlannerDrive) -> int | None:
         """Moves that are the same before it is driven differently for the first time; None if never."""
@@ -46,6 +59,14 @@ class PlannersHere:
             if one is not another:
                 return ahead
         return None if len(mine) == len(theirs) else min(len(mine), len(theirs))
+
+    def decided(self, other: PlannerDrive) -> Parting | None:
+        """What both decide where they part, by driving there again; None where they never do."""
+        ahead = self.parting(other)
+        if ahead is None:
+            return None
+        one, another = (_decision_at(each.foresight.state, ahead, self.ego) for each in (self.own, other))
+        return None if one is None or another is None else Parting(one.tick, one, another)
 
     @property
     def ranked(self) -> tuple[PlannerDrive, ...]:
@@ -79,7 +100,7 @@ def planners_here(
     missing = tuple(name for name in asked if name != own and planner_named(name) is None)
     found = [name for name in dict.fromkeys(asked) if name not in (own, *missing)]
     mine = PlannerDrive(own, foresee(state, ego))
-    return PlannersHere(state, mine, tuple(drive_each(state, found, ego)), missing)
+    return PlannersHere(state, mine, tuple(drive_each(state, found, ego)), missing, ego)
 
 
 def planner_of(state: SimState, ego: str | None = None) -> str:
@@ -96,6 +117,12 @@ def drive_each(state: SimState, names: Iterable[str], ego: str | None = None) ->
     """How it goes on from a state with each of these planners."""
     for name in names:
         yield PlannerDrive(name, foresee(driving(state, ego).with_ego(ego, planner=name), ego))
+
+
+def _decision_at(state: SimState, ahead: int, ego: str | None) -> Decision | None:
+    """The decision of an ego after so many others of its own; None where it drives no longer."""
+    found = (each for _, tick in rollout(state, ego=ego) if (each := decided(tick, ego)) is not None)
+    return next(islice(found, ahead, None), None)
 
 
 def _rank(drive: PlannerDrive) -> tuple[float, float, int]:

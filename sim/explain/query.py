@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sim.explain.effort import Effort
+from sim.explain.effort import Effort, prepare
 from sim.explain.facts import Explanation, QuestionError, check_ego
 from sim.explain.moments import state_at
 from sim.explain.why_causes import explain_why
@@ -93,6 +93,7 @@ def contrast(
 
 def decision_meant(timeline: Timeline, tick: int | None, ego: str | None) -> tuple[SimState, Decision]:
     """The decision of an ego at a tick, or its latest, and the state before it. Raises `QuestionError`."""
+    prepare(timeline.state)
     if tick is None:
         state, found = _latest(timeline, MOVES, ego)
         if found is None:
@@ -119,6 +120,7 @@ def latest_detour(timeline: Timeline, ego: str | None = None) -> Decision:
 
 def _latest(timeline: Timeline, moves: tuple[Move, ...], ego: str | None) -> tuple[SimState, Decision | None]:
     """The latest decision that was one of these moves, looked for in spans that grow backwards."""
+    prepare(timeline.state)
     stop, span = timeline.tick, 1
     oldest = max(0, timeline.tick - LOOK_BACK_TICKS)
     while stop > oldest:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from sim.actions import WorldAction
+from sim.actions import Set, WorldAction
 from sim.decide import announced_before, sense
 from sim.explain.alternatives import after_move
 from sim.explain.episode_rollout import EpisodeRollout, rollout, summarize
@@ -88,6 +88,34 @@ def compare_change(
         for ticks in [tuple(rollout(each, ego=ego))]
     ]
     return SideBySide(tick, sides[0], sides[1], None, _said_since(timeline, tick))
+
+
+def compare_planners(
+    timeline: Timeline, tick: int, planners: tuple[str, str], *, ego: str | None = None
+) -> SideBySide:
+    """What two planners make of the road of a tick: the first is the `real` side, the second the other.
+
+    Both drive by themselves, whoever drives the session. Raises `QuestionError` and `EditError`.
+    """
+    check_ego(timeline.state, ego)
+    state = state_at(timeline, tick)
+    sides = []
+    for name in planners:
+        start = apply(state, Set(parameter="planner", value=name)).state
+        driven = start.with_ego(ego, mode=Mode.AUTO)
+        ticks = tuple(rollout(driven, ego=ego))
+        sides.append(Side(driven, ticks, summarize(driven, list(ticks), ego=ego)))
+    return SideBySide(tick, sides[0], sides[1], None, _said_since(timeline, tick))
+
+
+def parting(found: SideBySide) -> tuple[SimState, Decision, SimState, Decision] | None:
+    """The first tick at which the two decide differently: each side's state there and its decision."""
+    for (one, first), (other, second) in zip(found.real.ticks, found.changed.ticks, strict=False):
+        if first.decision is None or second.decision is None:
+            continue
+        if first.decision.move is not second.decision.move:
+            return one, first.decision, other, second.decision
+    return None
 
 
 def _side(state: SimState, ticks: Ticks, ego: str) -> Side:

@@ -10,50 +10,29 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, islice
 from typing import Final, get_args
 
-from sim.actions import Add, Prefer, Wish, WorldAction
+from sim.actions import Prefer, Wish, WorldAction
+from sim.explain.edit import Edit, Edits
 from sim.explain.effort import RESERVE, Effort, WorkSpentError
-from sim.explain.factors import is_factor
 from sim.explain.intervention import Intervention, wall
 from sim.explain.relevance import having_part
+from sim.explain.tried_together import TogetherTried
 from sim.oracle.ddmin import ddmin
 from sim.plan import Measure, traits_of
 from sim.session.errors import EditError
-from sim.types import Cell, Move
+from sim.types import Move
 
 MOST_EDITS: Final = 3
 """Edits of the largest change that is looked for."""
 MOST_TRIES: Final = 400
 """Changes that are tried for an answer; where decisions search to the goal, their work ends it sooner."""
+FIRST_TOGETHER: Final = 16
+MOST_TOGETHER: Final = 128
+"""Changes that are tried at once, at first and later, where that can be."""
 MOST_CUT: Final = 7
 """Edits of a change of which every part is tried."""
-
-
-@dataclass(frozen=True, slots=True)
-class Edit:
-    """One thing that is changed: `gone` is taken away, or `actions` are done."""
-
-    gone: str = ""
-    actions: tuple[WorldAction, ...] = ()
-
-    @property
-    def barred(self) -> tuple[Cell, ...]:
-        """The cells that barriers are put into."""
-        return tuple(
-            action.where.cell
-            for action in self.actions
-            if isinstance(action, Add) and action.kind == "barrier" and action.where and action.where.cell
-        )
-
-    @property
-    def of_wishes(self) -> bool:
-        """Whether it changes wishes or settings; a change has at most one of these."""
-        return is_factor(self.gone) or any(isinstance(action, Prefer) for action in self.actions)
-
-
-Edits = tuple[Edit, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +61,7 @@ class ChangeSearch:
         self._most = effort.of(MOST_TRIES)
         self._edits = list(self._single_edits(having_part(rerun.percept, traits, list(names))))
         self._known: dict[frozenset[Edit], Move | None] = {}
+        self._together = None if rerun.quick is None else TogetherTried(rerun, rerun.quick)
 
     @property
     def tried(self) -> int:
@@ -130,13 +110,11 @@ class ChangeSearch:
 
     def smallest(self, fallback: Iterator[Edits]) -> SmallestChange:
         """The smallest change that is found; `fallback`: larger ones to cut down where the tries run out."""
-        searched, most = 0, self._most
+        searched = 0
         try:
             for size in range(1, MOST_EDITS + 1):
-                for edits in combinations(self._edits, size):
-                    if sum(edit.of_wishes for edit in edits) > 1:
-                        continue
-                    if self.tried >= most:
+                for edits in self._of_size(size):
+                    if edits is None:
                         return self._cut_down(fallback, searched)
                     if self.reaches(edits) and self._done(edits) is self._foil:
                         return SmallestChange(edits, searched, self.tried)
@@ -144,6 +122,21 @@ class ChangeSearch:
         except WorkSpentError:
             pass
         return self._cut_down(fallback, searched)
+
+    def _of_size(self, size: int) -> Iterator[Edits | None]:
+        """The changes of so many edits, the most telling first; None where no more may be tried."""
+        changes = (
+            edits for edits in combinations(self._edits, size) if sum(edit.of_wishes for edit in edits) <= 1
+        )
+        if self._together is None:
+            for edits in changes:
+                yield edits if self.tried < self._most else None
+            return
+        most = FIRST_TOGETHER
+        while some := list(islice(changes, most)):
+            self._known.update(self._together.made(some))
+            yield from some
+            most = min(MOST_TOGETHER, 2 * most)
 
     def _cut_down(self, fallback: Iterator[Edits], searched: int) -> SmallestChange:
         """A part of a larger change, of which nothing can be spared."""

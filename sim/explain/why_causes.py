@@ -25,7 +25,7 @@ from sim.explain.effort import FOR_CAUSES, RESERVE, Effort, WorkSpentError
 from sim.explain.factors import is_factor
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.intervention import Intervention, wall
-from sim.explain.rest import Rest
+from sim.explain.rest import Rest, tried_each_together
 from sim.oracle.ddmin import ddmin
 from sim.perceive import Percept
 from sim.plan import Decision, Option
@@ -59,6 +59,7 @@ def explain_why(
         hindered = [option for option in decision.options if option.move is decision.asked]
     else:
         hindered = list(decision.preferred)
+    tried_each_together(rerun, names)
     groups, verified = _sufficient(rerun, fact, names)
     rerun.allow(effort.of(RESERVE))
     rest = Rest.of(rerun, names, hindered, groups)

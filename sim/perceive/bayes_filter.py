@@ -30,7 +30,7 @@ from sim.types import HAZARDS, MOVERS
 from sim.world import World
 from sim.world.grid import Board, cells_of
 
-_UNLIKELY = 2 * LIMIT // 8
+UNLIKELY = 2 * LIMIT // 8
 """How much less likely than by the prior a mover is where the rule leads none to (log odds)."""
 
 
@@ -38,7 +38,7 @@ def predict_layers(belief: GridBelief, world: World, config: Config) -> tuple[La
     """The belief one tick on, before any look; and the names of the movers that are followed, by cell."""
     road = world.road
     layers = unpacked(belief.layers, road)
-    motion = _expected_motion(belief, world, config)
+    motion = expected_motion(belief, world, config)
     table = table_of(belief.movers)
     followed = []
     for cell in table:
@@ -52,23 +52,22 @@ def predict_layers(belief: GridBelief, world: World, config: Config) -> tuple[La
         if steps_in_tick(PERIODS[kind], belief.episode_tick):
             moving[2 * place : 2 * place + 2] = _drifted(moving[2 * place : 2 * place + 2])
     for place in range(len(moving)):
-        moving[place] = _mixing(int(before[FIXED + place, 1, 0]))[moving[place] + LIMIT]
+        moving[place] = mixing_table(int(before[FIXED + place, 1, 0]))[moving[place] + LIMIT]
     for cell in cells_of(belief.boards.fixed):
         row, column = divmod(cell, road.columns)
-        np.minimum(
-            moving[:, row, column], before[FIXED:, row, column] - _UNLIKELY, out=moving[:, row, column]
-        )
+        most = np.maximum(before[FIXED:, row, column] - UNLIKELY, -LIMIT)
+        np.minimum(moving[:, row, column], most, out=moving[:, row, column])
     after = shift_table(table, motion)
     for (layer, _, value), cell in zip(followed, after, strict=True):
         row, column = divmod(cell, road.columns)
         heading = int(not motion.right >> cell & 1)
         layer = layer - (layer - FIXED) % 2 + heading
-        mixed = int(_mixing(int(before[layer, 1, 0]))[value + LIMIT])
+        mixed = int(mixing_table(int(before[layer, 1, 0]))[value + LIMIT])
         layers[layer, row, column] = max(int(layers[layer, row, column]), mixed)
     return layers, after
 
 
-def _expected_motion(belief: GridBelief, world: World, config: Config) -> Motion:
+def expected_motion(belief: GridBelief, world: World, config: Config) -> Motion:
     """Where what is believed to be movers is after the tick, by the rule."""
     road, boards = world.road, belief.boards
     motion = config.mover_behaviour.step(
@@ -101,7 +100,7 @@ def _drifted(pair: Layers) -> Layers:
 
 
 @lru_cache(maxsize=256)
-def _mixing(before: int) -> Grid:
+def mixing_table(before: int) -> Grid:
     """Log odds after mixing with the prior `before`, by log odds + LIMIT."""
     base = PROBABILITY[before + LIMIT]
     mixed = [log_odds((1.0 - FORGETTING) * p + FORGETTING * base) for p in PROBABILITY]
@@ -115,14 +114,14 @@ def update_layers(layers: Layers, found: Look, row: int, column: int) -> None:
     height = row + 1 - top
     window = layers[:, top : row + 1]
     visible = board_array(found.visible >> top * columns, height, columns)
-    window += _misses(model)[:, -height:, columns - 1 - column : 2 * columns - 1 - column] * visible
+    window += layer_misses(model)[:, -height:, columns - 1 - column : 2 * columns - 1 - column] * visible
     np.clip(window, -LIMIT, LIMIT, out=window)
     for report in found.reports:
         _weigh(layers, found, report, row, column)
 
 
 @lru_cache(maxsize=64)
-def _misses(model: SensorModel) -> Grid:
+def layer_misses(model: SensorModel) -> Grid:
     """What a look without a report adds, by layer; the last row is the vehicle's own."""
     table = np.zeros((LAYERS, model.reach + 1, 2 * model.columns - 1), np.int32)
     for kind in HAZARDS:

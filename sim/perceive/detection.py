@@ -29,6 +29,8 @@ def detection_chance(config: Config, kind: Kind, distance_m: float) -> float | N
     """
     if config.sensor not in SUITES:
         return None
+    if distance_m > config.sensor_range_m:
+        return 0.0
     missed = 1.0
     for spec in SUITES[config.sensor]:
         missed *= 1.0 - detection_probability(spec, kind, config.weather, config.time_of_day, distance_m)

@@ -11,13 +11,14 @@ import numpy as np
 from sim.config import Config
 from sim.perceive.bayes_filter import predict_layers, update_layers
 from sim.perceive.belief import FIXED, LAYER, LAYERS, RIGHT, GridBelief, Layers, packed, prior, probabilities
+from sim.perceive.kernel import run as kernel
 from sim.perceive.log_odds import LIMIT
 from sim.perceive.look import Look, look
 from sim.perceive.parameters import SensorSpec
 from sim.perceive.percept import DOUBTS, Percept
 from sim.perceive.perfect import perceive_truth
 from sim.perceive.sensor import NO_BELIEF, Belief
-from sim.perceive.sensor_model import sensor_model
+from sim.perceive.sensor_model import sensor_model, tuning_of
 from sim.types import HAZARDS, KINDS, MOVERS, Kind, phantom_id
 from sim.world import World
 from sim.world.boards import Boards
@@ -39,7 +40,14 @@ def looks(world: World, config: Config, ego: int, suite: Iterable[SensorSpec]) -
             world,
             config,
             ego,
-            sensor_model(spec, config.weather, config.time_of_day, config.cell_m, world.road.columns),
+            sensor_model(
+                spec,
+                config.weather,
+                config.time_of_day,
+                config.cell_m,
+                world.road.columns,
+                tuning_of(config),
+            ),
         )
         for spec in suite
     ]
@@ -211,5 +219,9 @@ def perceive_grid(
 ) -> tuple[Percept, Belief]:
     """What a suite of devices shows; with `remembers` false, of this tick's looks alone."""
     before = belief if remembers else NO_BELIEF
+    if kernel.ready():
+        known = before if isinstance(before, GridBelief) else None
+        percept, after = kernel.sense_tick(world, config, ego, known, suite)
+        return percept, after if remembers else NO_BELIEF
     percept, after = show(world, config, ego, before, gather(world, config, ego, before, suite))
     return percept, after if remembers else NO_BELIEF

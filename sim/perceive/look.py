@@ -23,7 +23,7 @@ _KINDS: Final = (*HAZARDS, *MOVERS)
 NUMBER: Final = {kind: number for number, kind in enumerate(_KINDS)}
 """Numbers of kinds in random streams."""
 _OCCLUDING: Final = tuple(kind for kind, spec in KINDS.items() if spec.occludes)
-_ALARMS: Final = 100
+ALARMS: Final = 100
 """The sub-stream of false alarms; those of kinds come before."""
 
 
@@ -115,7 +115,7 @@ def _report(
 
 def _false_alarms(model: SensorModel, draws: Stream, visible: Board, row: int) -> list[Report]:
     """At most one of each kind in a look, in a cell that is drawn from all that it might see."""
-    columns, stream = model.columns, draws.narrow(_ALARMS)
+    columns, stream = model.columns, draws.narrow(ALARMS)
     cells = (model.reach + 1) * columns
     found = []
     for kind, seen in model.kinds.items():

@@ -15,7 +15,7 @@ from typing import Final
 from sim.types import KINDS, Kind
 from sim.world.grid import Board, Road, bits
 
-_UNIT: Final = 200
+UNIT: Final = 200
 """Units of length in a cell: half a hundredth, so that half a body is a whole number."""
 
 Occluder = tuple[Kind, Board]
@@ -25,7 +25,7 @@ Occluder = tuple[Kind, Board]
 def half_size(kind: Kind) -> tuple[int, int]:
     """Half of a body's extent across and along, in 1/200 of a cell."""
     size = KINDS[kind].size
-    return int(size.across * _UNIT / 2), int(size.along * _UNIT / 2)
+    return int(size.across * UNIT / 2), int(size.along * UNIT / 2)
 
 
 def ray_meets_body(target: tuple[int, int], body: tuple[int, int], half: tuple[int, int]) -> bool:
@@ -34,8 +34,8 @@ def ray_meets_body(target: tuple[int, int], body: tuple[int, int], half: tuple[i
     `target` and `body` are in cells from the vehicle. By separating axes: a segment and a box are apart if
     and only if they are apart across, along, or across the segment.
     """
-    ray = target[0] * _UNIT, target[1] * _UNIT
-    centre = body[0] * _UNIT, body[1] * _UNIT
+    ray = target[0] * UNIT, target[1] * UNIT
+    centre = body[0] * UNIT, body[1] * UNIT
     for axis in (0, 1):
         low, high = sorted((0, ray[axis]))
         if high <= centre[axis] - half[axis] or low >= centre[axis] + half[axis]:

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan2, ceil, degrees, erf, hypot, log, radians, sin, sqrt
-from typing import Final
+from math import atan2, ceil, degrees, erf, hypot, inf, log, radians, sin, sqrt
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.actions import TimeOfDay, Weather
+from sim.config import Config
 from sim.perceive.detection import detection_probability
 from sim.perceive.log_odds import UNITS
 from sim.perceive.parameters import MAX_REACH, SensorSpec
@@ -72,19 +73,45 @@ def _view(model: SensorModel, column: int) -> Board:
     return board
 
 
+class Tuning(NamedTuple):
+    """What people set of every device."""
+
+    range_m: float
+    """no device sees farther"""
+    noise: float
+    """added to the standard deviation of a measured distance, as a share of the distance"""
+    false_alarms: float
+    """added to the probability of a false alarm in one look, shared out evenly among the kinds"""
+
+
+AS_BUILT: Final = Tuning(inf, 0.0, 0.0)
+"""Devices as they are."""
+
+
+def tuning_of(config: Config) -> Tuning:
+    """The tuning under a configuration."""
+    return Tuning(config.sensor_range_m, config.sensor_noise, config.false_positive_rate)
+
+
 @lru_cache(maxsize=64)
 def sensor_model(
-    spec: SensorSpec, weather: Weather, light: TimeOfDay, cell_m: float, columns: int
+    spec: SensorSpec,
+    weather: Weather,
+    light: TimeOfDay,
+    cell_m: float,
+    columns: int,
+    tuning: Tuning = AS_BUILT,
 ) -> SensorModel:
     """The tables of a device."""
     factor = min(spec.weather[weather].reach, spec.light[light].reach)
-    reach = max(1, min(MAX_REACH, ceil(spec.range_m * factor / cell_m)))
+    range_m = min(spec.range_m * factor, tuning.range_m)
+    reach = max(1, min(MAX_REACH, ceil(range_m / cell_m)))
     places = [[(rows, across) for across in range(1 - columns, columns)] for rows in range(reach + 1)]
     kinds = {
-        kind: _kind_model(spec, kind, weather, light, cell_m, places, spec.range_m * factor)
+        kind: _kind_model(spec, kind, weather, light, cell_m, places, range_m, tuning)
         for kind in spec.targets
     }
-    shifts = [[_shifts(spec, rows, across, cell_m) for rows, across in row] for row in places]
+    shifts = [[_shifts(spec, rows, across, cell_m, tuning) for rows, across in row] for row in places]
     return SensorModel(spec, columns, reach, kinds, shifts)
 
 
@@ -96,9 +123,13 @@ def _kind_model(
     cell_m: float,
     places: list[list[tuple[int, int]]],
     range_m: float,
+    tuning: Tuning,
 ) -> KindModel:
     alarms = spec.targets[kind].false_alarms * spec.weather[weather].false_alarms
     alarm = alarms * spec.light[light].false_alarms / 100.0
+    if tuning.false_alarms:
+        cells = len(places) * (len(places[0]) + 1) // 2  # of a road: `places` are as wide as two
+        alarm += tuning.false_alarms / len(spec.targets) / cells
     detection = [
         [
             detection_probability(spec, kind, weather, light, cell_m * hypot(rows, across))
@@ -122,12 +153,12 @@ def _in_view(spec: SensorSpec, rows: int, across: int) -> bool:
     return degrees(abs(atan2(across, rows))) <= spec.view_deg / 2
 
 
-def _shifts(spec: SensorSpec, rows: int, across: int, cell_m: float) -> tuple[Shift, ...]:
+def _shifts(spec: SensorSpec, rows: int, across: int, cell_m: float, tuning: Tuning) -> tuple[Shift, ...]:
     """Where a thing there may be reported: normal errors along and across the ray, rounded to cells."""
     distance = cell_m * hypot(rows, across)
     if distance == 0.0:
         return ((0, 0, 1.0),)
-    along, across_m = spec.along * distance, sin(radians(spec.across_deg)) * distance
+    along, across_m = hypot(spec.along, tuning.noise) * distance, sin(radians(spec.across_deg)) * distance
     ahead, aside = cell_m * rows / distance, cell_m * across / distance
     in_rows = _rounded(hypot(along * ahead, across_m * aside) / cell_m)
     in_columns = _rounded(hypot(along * aside, across_m * ahead) / cell_m)

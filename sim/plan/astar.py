@@ -4,7 +4,8 @@ Structure: one A* for each move that is free now, from the cell it leads to; wha
 the way to the goal sharpens the bounds of the next, so that most of them end where an earlier way is
 met. Guarantees: every move's total cost is exact, and the move taken is a cheapest (ties in the order
 of `Move`); since every tick costs something and the forecast holds, the cost to go falls by what is paid,
-so that there is no livelock; a road that can be driven is driven. Simplifications: with courtesy above 0
+so that there is no livelock; a road that can be driven is driven. Where the compiled costs are loaded
+(`sim.search.compiled_costs`), the same totals come from them. Simplifications: with courtesy above 0
 the forecast assumes that nobody gives way after the coming tick; smoothness is charged per move.
 Sources: Hart, Nilsson & Raphael (1968); space-time: Silver, "Cooperative pathfinding" (2005);
 Koenig & Likhachev, "Adaptive A*" (2005).
@@ -21,6 +22,7 @@ from sim.plan.by_cost import decide_by_cost
 from sim.plan.decision import Decision, Measure
 from sim.plan.protocol import Traits
 from sim.search.astar import AdaptiveHeuristic, cheapest
+from sim.search.compiled_costs import compiled_costs
 from sim.search.continued import Known, continued, keep
 from sim.search.costs import Weights, weights
 from sim.search.graph import State
@@ -61,21 +63,29 @@ class AStarPlanner:
 
     def decide(self, forecast: Forecast, config: Config) -> Decision:
         """The move, and what each of the six costs in all."""
-        limit = steps_left(config, forecast.episode_tick)
-        terrain, lessons, start = _begun(forecast, weights(config), limit)
-        totals: list[int | None] = [None] * len(MOVES)
-        ticks: Sequence[int | None] | None = None
-        for move, there, cost in terrain.steps(start):
-            if there in lessons.exact:
-                totals[move] = cost + lessons.exact[there]
-                continue
-            if ticks is None:
-                ticks = least_ticks_by_move(forecast, limit)
-            if ticks[move] is None:
-                continue  # a heuristic search would try everything before it gave up
-            way = cheapest(terrain, there, lessons=lessons)
-            if way is not None:
-                totals[move] = cost + way.cost
-        if totals[STAY] is None:
-            totals[STAY] = cost_of_staying(forecast, weights(config), limit)
-        return decide_by_cost(self.name, Measure.COST, forecast, totals, limit)
+        limit, charges = steps_left(config, forecast.episode_tick), weights(config)
+        found = compiled_costs(forecast, charges, limit)
+        if found is not None:
+            return decide_by_cost(self.name, Measure.COST, forecast, found.totals, limit, found.lasting)
+        return decide_by_cost(self.name, Measure.COST, forecast, searched(forecast, charges, limit), limit)
+
+
+def searched(forecast: Forecast, charges: Weights, limit: int) -> list[int | None]:
+    """What every move costs in all with `limit` ticks left, in the order of `Move`; None: no way."""
+    terrain, lessons, start = _begun(forecast, charges, limit)
+    totals: list[int | None] = [None] * len(MOVES)
+    ticks: Sequence[int | None] | None = None
+    for move, there, cost in terrain.steps(start):
+        if there in lessons.exact:
+            totals[move] = cost + lessons.exact[there]
+            continue
+        if ticks is None:
+            ticks = least_ticks_by_move(forecast, limit)
+        if ticks[move] is None:
+            continue  # a heuristic search would try everything before it gave up
+        way = cheapest(terrain, there, lessons=lessons)
+        if way is not None:
+            totals[move] = cost + way.cost
+    if totals[STAY] is None:
+        totals[STAY] = cost_of_staying(forecast, charges, limit)
+    return totals

@@ -7,15 +7,21 @@ from collections.abc import Sequence
 from sim.forecast import Forecast
 from sim.plan.decision import Decision, Measure, Option
 from sim.search.reachability import longest_lasting
-from sim.types import MOVES
+from sim.types import MOVES, Move
 
 
 def decide_by_cost(
-    planner: str, measure: Measure, forecast: Forecast, totals: Sequence[int | None], limit: int
+    planner: str,
+    measure: Measure,
+    forecast: Forecast,
+    totals: Sequence[int | None],
+    limit: int,
+    lasting: Move | None = None,
 ) -> Decision:
     """The cheapest move, ties in the order of `Move`; with no way on, the move after which one lasts longest.
 
-    `totals` are in the order of `Move`; None where the step is not free or no way leads on.
+    `totals` are in the order of `Move`; None where the step is not free or no way leads on. `lasting`: the
+    move after which one lasts longest, where it is known already.
     """
     options = []
     for move, total in zip(MOVES, totals, strict=True):
@@ -27,6 +33,6 @@ def decide_by_cost(
     if options[0].cost is not None:
         move = options[0].move
     else:
-        move = longest_lasting(forecast, limit)
+        move = longest_lasting(forecast, limit) if lasting is None else lasting
         options.sort(key=lambda option: option.move is not move)
     return Decision(forecast.tick, forecast.ego_id, planner, move, tuple(options), measure=measure)

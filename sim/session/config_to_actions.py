@@ -27,6 +27,9 @@ _SET_AFTER = (
     "attentive",
     "safety_buffer",
     "detection_sensitivity",
+    "sensor_range_m",
+    "sensor_noise",
+    "false_positive_rate",
 )
 
 

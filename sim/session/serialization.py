@@ -34,7 +34,17 @@ from sim.world.grid import Road
 Part = TypeVar("Part")
 
 _CONFIG = tuple(field.name for field in fields(Config))
-_LATER = {*COUNTS.values(), "dynamics", "behaviour", "weather", "time_of_day", "detection_sensitivity"}
+_LATER = {
+    *COUNTS.values(),
+    "dynamics",
+    "behaviour",
+    "weather",
+    "time_of_day",
+    "detection_sensitivity",
+    "sensor_range_m",
+    "sensor_noise",
+    "false_positive_rate",
+}
 """Fields of configurations that came later; where one is missing, it is at its default."""
 _ALWAYS = {*_CONFIG} - _LATER
 _METRICS = tuple(field.name for field in fields(Metrics))

@@ -41,7 +41,8 @@ def test_columns_agree(traits: ActionTraits) -> None:
     assert traits.undo_step or not traits.changes_world, "a change of the world can be undone"
     assert traits.changes_session or not traits.undo_step, "a step of undo is stored"
     assert not (traits.is_question and traits.changes_session), "a question changes nothing"
-    costs = traits is BY_VERB["evaluate"]  # it changes nothing, and occupies the service for long
+    # They change nothing, and occupy the service for long or end such work.
+    costs = traits in (BY_VERB["evaluate"], BY_VERB["evaluation"], BY_VERB["find_worst"])
     assert (traits.changes_session or costs) == (traits.model is not ModelUse.ALWAYS), (
         "a model may cause without asking what changes nothing, and only that"
     )

@@ -111,3 +111,22 @@ def test_whoever_wishes_has_the_next_road_begin_by_itself(visit: Visit, service:
     visitor.page.get_by_role("button", name="Resume").click()
     for episode in ("2", "3"):
         expect(visitor.page.locator("[data-figure=episode] .figure-value")).to_have_text(episode)
+
+
+def test_where_others_watch_only_ones_own_view_stays_at_the_end(
+    visit: Visit, service: ServiceProcess
+) -> None:
+    session = service.session(**SHORT)
+    first, second = visit(f"/#/s/{session}"), visit(f"/#/s/{session}")
+    for visitor in (first, second):
+        expect(visitor.page.locator("[data-figure=tick] .figure-value")).to_have_text("0")
+    first.page.get_by_role("button", name="Resume").click()
+    expect(first.page.locator("#connection")).to_contain_text("Past")
+    expect(first.page.locator(".verdict-title")).to_have_text(re.compile("success", re.IGNORECASE))
+    first.until("async (id) => (await (await fetch(`/api/v1/sessions/${id}`)).json()).episode > 1", session)
+    assert not first.script.state()["paused"]
+    expect(first.page.locator(".verdict")).to_be_visible()
+    expect(first.page.locator("[data-figure=episode] .figure-value")).to_have_text("1")
+    first.page.locator("[data-ending=next]").click()
+    expect(first.page.locator("#connection")).to_contain_text("Live")
+    first.script.act({"do": "pause"})

@@ -10,11 +10,12 @@ from tests.browser.conftest import Visit
 from tests.browser.visitor import Visitor
 from tests.browser.walking import TICKS, bar, choose, figure, look, slider, world
 
-# And what its button tells at that moment: a slow machine may not look before it has come to the end.
+# And whether it goes on at that moment: a slow machine may not look before it has come to the end.
 PLAY = """
-() => {
+async () => {
+  const { page } = await import("/src/main.js");
   document.body.dispatchEvent(new KeyboardEvent("keydown", { key: " ", bubbles: true, cancelable: true }));
-  return document.querySelector("[data-past=play]").dataset.playing;
+  return String(page.state().look.playing);
 }
 """
 

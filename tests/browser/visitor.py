@@ -139,6 +139,7 @@ class Visitor:
         """Until the stream has said hello, of the session that the address names by now."""
         expect(self.page.locator("#connection")).to_have_attribute("data-phase", "live")
         self.until(LIVE)
+        expect(self.page.locator(".road-hands")).to_be_attached()
 
     def drawn(self) -> None:
         """Until what has come to the page is to be seen on it."""

@@ -111,8 +111,11 @@ async def test_what_cannot_be_is_refused_with_the_reason(service: Service) -> No
     refused = {
         "already made": ({"at_tick": 1, "move": made}, "That is the move that was made."),
         "to come": ({"at_tick": 99, "move": "stay"}, "Tick 99 has not come yet: it is tick 2."),
-        "both": ({"move": "stay", "actions": [{"do": "reset"}]}, "say either a move or actions"),
-        "neither": ({}, "say either a move or actions"),
+        "both": (
+            {"move": "stay", "actions": [{"do": "reset"}]},
+            "say either a move, actions or two planners",
+        ),
+        "neither": ({}, "actions or two planners"),
         "no change": ({"actions": [{"do": "pause"}]}, "changes nothing on the road"),
         "not there": (
             {"actions": [{"do": "remove", "kind": "pothole", "count": 1, "where": {"id": "pothole-99"}}]},
@@ -127,3 +130,37 @@ async def test_what_cannot_be_is_refused_with_the_reason(service: Service) -> No
         answer = await service.client.post(f"{path}/counterfactual", json=body)
         assert answer.status_code == 422, name
         assert words in answer.text, name
+
+
+async def test_two_planners_drive_the_same_road_from_where_its_episode_began(service: Service) -> None:
+    path = await service.session(paused=True, seed=16, config={"vehicles": 24})
+    await service.client.post(f"{path}/step", json={"ticks": 6})
+    before = (await service.state(path))["digest"]
+    found = await otherwise(service, path, planners=["rules", "dijkstra"])
+    assert found["at_tick"] == 0
+    for side, planner in (("real", "rules"), ("changed", "dijkstra")):
+        assert {tick["decision"]["planner"] for tick in found[side]["ticks"]} == {planner}
+    assert found["real"]["state"]["movers"] == found["changed"]["state"]["movers"]
+    part = found["parting"]
+    moves = {
+        side: [tick["decision"]["move"] for tick in found[side]["ticks"]] for side in ("real", "changed")
+    }
+    assert moves["real"][: part["tick"]] == moves["changed"][: part["tick"]]
+    assert part["real"]["move"] == moves["real"][part["tick"]]
+    assert part["changed"]["move"] == moves["changed"][part["tick"]]
+    assert part["real"]["move"] != part["changed"]["move"]
+    assert part["real"]["text"] != part["changed"]["text"]
+    assert (await otherwise(service, path, planners=["bfs", "bfs"]))["parting"] is None
+    assert (await service.state(path))["digest"] == before
+
+
+async def test_a_planner_that_there_is_not_is_refused_by_name(service: Service) -> None:
+    path = await service.session(paused=True)
+    bodies: list[Json] = [
+        {"planners": ["rules", "flibber"]},
+        {"planners": ["rules"]},
+        {"planners": ["rules", "bfs"], "move": "stay"},
+    ]
+    for body in bodies:
+        answer = await service.client.post(f"{path}/counterfactual", json=body)
+        assert answer.status_code in (409, 422), answer.text

@@ -26,7 +26,7 @@ async def test_a_step_in_a_process_answers_as_one_beside_the_loop(
     here = (await service.client.post(f"{first}/step", json={"ticks": 40})).json()
     for name in ("executor.INLINE", "executor.THREAD"):
         monkeypatch.setattr(f"service.work.{name}", 0)
-    monkeypatch.setattr("service.sessions.session.THREAD", 0)
+    monkeypatch.setattr("service.sessions.perform.THREAD", 0)
     there = (await service.client.post(f"{second}/step", json={"ticks": 40})).json()
     assert there["decisions"] == here["decisions"]
     assert len(here["decisions"]) > 30

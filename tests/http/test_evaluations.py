@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import csv
 import json
+import re
 from collections.abc import AsyncIterator, Iterator, Sequence
 from io import StringIO
 from threading import Event
@@ -12,9 +13,12 @@ from typing import Any
 
 import httpx
 import pytest
+from pydantic import SecretStr
 
 from service.app import create_app
 from service.grammar import Language
+from service.scenarios import named_scenario
+from service.scenarios.begin import evaluation_of_scenario
 from service.settings import Settings
 from service.store import MemoryStore, StoreError
 from sim.config import Config
@@ -236,7 +240,7 @@ async def test_a_session_evaluates_its_own_roads_and_says_so(running: Service) -
     assert answer.status_code == 200
     said = answer.json()
     (one,) = said["evaluations"]
-    assert said["reply"].startswith("Started 20 runs with A* on roads drawn from seed")
+    assert said["reply"].startswith("Started 20 runs with A*, with 30 potholes on roads drawn from seed")
     assert one["links"]["report"] in said["reply"]
     found = await ended(running, one["links"]["self"])
     assert (found["config"]["potholes"], found["seed"], found["same_road"]) == (30, before["seed"], False)
@@ -295,3 +299,94 @@ async def test_one_key_starts_one_evaluation(running: Service) -> None:
 
 def test_the_default_road_is_that_of_the_configuration() -> None:
     assert Evaluation(planners=("rules",), episodes=1).config == Config()
+
+
+async def test_conditions_are_compared_and_each_has_its_episodes(running: Service) -> None:
+    text = "run 20 episodes with A* in fog and in clear weather with the camera"
+    made = await running.client.post(ALL, json={"text": text, "seed": 3})
+    assert made.status_code == 202, made.text
+    typed = {"runs": 20, "planners": ["astar"], "config": {"sensor": "camera"}, "seed": 3}
+    other = await running.client.post(ALL, json={**typed, "vary": {"weather": ["fog", "clear"]}})
+    path = made.headers["location"]
+    found = await ended(running, path)
+    assert (await ended(running, other.headers["location"]))["result"] == found["result"]
+    assert found["title"] == "Evaluation: 20 runs with A*, with the camera, in fog and in clear weather"
+    assert (found["runs"], found["done"], found["progress"]) == (20, 40, 1)
+    assert found["conditions"] == [{"weather": "fog"}, {"weather": "clear"}]
+    assert found["text"][0].startswith("In fog: A* arrived in")
+    assert found["text"][1].startswith("In clear weather: A* arrived in")
+    page = (await running.client.get(f"{path}/report")).text
+    names = set(re.findall(r'id="(episode-\d+)"', page))
+    leads = re.findall(r'href="#(episode-\d+)"', page)
+    assert len(leads) > 10
+    assert set(leads) <= names
+    rows = list(csv.DictReader(StringIO((await running.client.get(f"{path}/report?format=csv")).text)))
+    assert [row["weather"] for row in rows] == ["fog"] * 20 + ["clear"] * 20
+    crashed = sum(row["outcome"] == "crash" for row in rows if row["weather"] == "fog")
+    assert found["result"]["cases"][0]["planners"]["astar"]["crashed"]["count"] == crashed
+
+
+async def test_how_far_it_is_can_be_asked_and_its_end_said(held: Service) -> None:
+    path = await held.session()
+    assert (
+        "No evaluation was asked for"
+        in (await held.say(path, "how is the evaluation going?")).json()["reply"]
+    )
+    (one,) = (await held.say(path, "run 60 episodes with A*")).json()["evaluations"]
+    await until_done(held, one["links"]["self"], 20)
+    reply = (await held.say(path, "how is the evaluation going?")).json()["reply"]
+    assert reply == "33.3 % is done: 20 of 60 runs. (Evaluation: 60 runs with A*.)"
+    tried = await held.say(path, "cancel the evaluation", dry_run=True)
+    assert tried.status_code == 200
+    assert (await held.client.get(one["links"]["self"])).json()["state"] == "running"
+    reply = (await held.say(path, "cancel the evaluation")).json()["reply"]
+    assert reply.startswith("Cancelled after 20 of 60 runs.")
+    assert (await held.client.get(one["links"]["self"])).json()["state"] == "cancelled"
+    again = (await held.say(path, "cancel the evaluation")).json()["reply"]
+    assert again == "No evaluation of this session is under way."
+
+
+async def test_with_a_key_the_link_opens_its_report_and_nothing_else() -> None:
+    app = create_app(
+        Settings(database="memory:", api_key=SecretStr("k" * 20)),
+        store=MemoryStore(),
+        language=Language.load("en"),
+        clock=HandClock(),
+        make_executor=InProcess,
+    )
+    bearer = {"Authorization": f"Bearer {'k' * 20}"}
+    async with (
+        app.router.lifespan_context(app),
+        httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://service") as client,
+    ):
+        made = await client.post(ALL, json={"runs": 3}, headers=bearer)
+        await app.state.context.jobs.wait(made.json()["id"])
+        found = (await client.get(made.headers["location"], headers=bearer)).json()
+        report, ticket = found["links"]["report"].split("?ticket=")
+        assert (await client.get(report)).status_code == 401
+        opened = await client.get(found["links"]["report"])
+        assert (opened.status_code, opened.headers["content-type"]) == (200, "text/html; charset=utf-8")
+        for other in (found["links"]["self"], ALL, report.replace(made.json()["id"], "another")):
+            assert (await client.get(f"{other}?ticket={ticket}")).status_code == 401, other
+        for wrong in (ticket[:-1], f"9{ticket}", "", "x-y"):
+            assert (await client.get(f"{report}?ticket={wrong}")).status_code == 401, wrong
+
+
+async def test_a_scenario_file_is_evaluated_and_its_flaws_are_named(running: Service) -> None:
+    file = named_scenario("growing-traffic").to_values()
+    made = await running.client.post(ALL, json={"file": file, "runs": 4, "planners": ["astar"], "seed": 2})
+    assert made.status_code == 202, made.text
+    found = await ended(running, made.headers["location"])
+    spec = evaluation_of_scenario(named_scenario("growing-traffic"), 4, ("astar",), 2)
+    assert found["result"] == json.loads(json.dumps(evaluate(spec)))
+    assert "with a rule" in found["title"]
+    for wrong, field in (
+        ({"file": {**file, "version": 2}}, "file.version"),
+        ({"file": {**file, "config": {"potholes": -1}}}, "file.config.potholes"),
+        ({"file": file, "text": "run 5 episodes"}, "text"),
+        ({"file": file, "runs": 0}, "runs"),
+        ({"file": {}}, "file.name"),
+    ):
+        answer = await running.client.post(ALL, json=wrong)
+        assert answer.status_code == 422, answer.text
+        assert field in [each["field"] for each in answer.json()["errors"]]

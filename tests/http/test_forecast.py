@@ -97,6 +97,7 @@ async def test_a_move_that_closes_the_road_is_told_as_lost(service: Service) -> 
     await service.client.post(f"{path}/step", json={"ticks": 1})
     (judged,) = (await asked(service, f"{path}/regret"))["items"]
     assert (judged["move"], judged["lost"], judged["ticks"]) == ("left", False, 1)
+    assert judged["clearance_m"] == 5.0
 
 
 @pytest.mark.parametrize(

@@ -83,7 +83,7 @@ async def test_all_that_is_said_is_in_the_language_of_the_session() -> None:
             ("actions", {"actions": [{"do": "load", "name": "x"}]}),
             (
                 "counterfactual",
-                {"at_tick": 0, "actions": [{"do": "set", "parameter": "sensor_noise", "value": 0.2}]},
+                {"at_tick": 0, "actions": [{"do": "set", "parameter": "target_speed_kmh", "value": 40}]},
             ),
         ):
             answer = await service.post(f"{own}/{path}", body)

@@ -199,7 +199,7 @@ async def test_what_is_not_available_is_refused_all_the_same(
     ("actions", "slug"),
     [
         ([{"do": "add", "kind": "pothole", "count": 9999}], "does-not-fit"),
-        ([{"do": "set", "parameter": "sensor_noise", "value": 0.2}], "not-available"),
+        ([{"do": "set", "parameter": "target_speed_kmh", "value": 40}], "not-available"),
         ([{"do": "pause"}, {"do": "remove", "kind": "barrier", "count": 3}], "does-not-fit"),
         ([{"do": "undo"}], "nothing-to-undo"),
         # What stays beyond the session, or moves time, is asked about even then.

@@ -38,7 +38,7 @@ NOTHING = frozenset(("ask", "advise", "show", "hide"))
 """What changes no session."""
 MOVING = frozenset(("undo", "redo", "rewind", "load"))
 """What goes to another state, though it may be of the same road."""
-NEVER = frozenset(("evaluate", "find_worst", "record", "teach", "forget"))
+NEVER = frozenset(("evaluate", "evaluation", "find_worst", "record", "teach", "forget"))
 """What this version has not, or not in a session."""
 
 

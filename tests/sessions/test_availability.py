@@ -68,23 +68,30 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "replace", "kind": "barrier", "count": 1, "by": "vehicle"},
     {"do": "copy", "kind": "barrier", "count": 1},
     {"do": "evaluate", "runs": 5},
+    {"do": "evaluation", "want": "progress"},
+    {"do": "evaluation", "want": "cancel"},
+    {"do": "find_worst"},
     {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
     {"do": "set", "parameter": "weather", "value": "rain"},
     {"do": "set", "parameter": "time_of_day", "value": "night"},
     {"do": "set", "parameter": "sensor", "value": "camera"},
     {"do": "set", "parameter": "detection_sensitivity", "value": 0.7},
+    {"do": "set", "parameter": "sensor_range_m", "value": 40},
+    {"do": "set", "parameter": "sensor_noise", "value": 0.1},
+    {"do": "adjust", "parameter": "false_positive_rate", "direction": "up"},
+    {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "sensor_noise", "value": 0.2}]},
     {"do": "scenario", "weather": "fog", "time_of_day": "dusk", "sensor": "fusion"},
     {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "weather", "value": "rain"}]},
 ]
 BESIDE_SESSIONS = {"teach", "forget"}
 """Offered, but done to a phrasebook and to no session (test_teaching)."""
 REFUSED: list[dict[str, Any]] = [
-    {"do": "set", "parameter": "sensor_range_m", "value": 40},
+    {"do": "set", "parameter": "target_speed_kmh", "value": 40},
     {"do": "show", "view": "sensors"},
     {"do": "hide", "view": "sensors"},
     {"do": "evaluate", "planners": ["astar", "dwa"]},
     {"do": "evaluate", "scenario": {"planner": "rl"}},
-    {"do": "find_worst"},
+    {"do": "find_worst", "planner": "dwa"},
     {"do": "record", "on": True},
     {"do": "add", "kind": "av", "count": 1},
     {"do": "remove", "kind": "av", "count": "all"},
@@ -96,7 +103,7 @@ REFUSED: list[dict[str, Any]] = [
     *({"do": "scenario", key: value} for key, value in (
         ("planner", "rl"), ("avs", 1),
     )),
-    {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "sensor_noise", "value": 0.2}]},
+    {"do": "ask", "about": "what_if", "change": [{"do": "set", "parameter": "target_speed_kmh", "value": 9}]},
     {"do": "ask", "about": "what_if", "change": [{"do": "pause"}, {"do": "undo"}]},
     {"do": "ask", "about": "what_if", "change": [{"do": "rewind", "ticks": 2}]},
 ]  # fmt: skip

@@ -29,7 +29,7 @@ ROAD = Config(seed=5, planner="astar")
 def everything_is_dear(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("INLINE", "THREAD"):
         monkeypatch.setattr(f"service.work.executor.{name}", 0)
-    for module in ("session", "manager", "build_fork", "persistence.recording"):
+    for module in ("perform", "manager", "build_fork", "persistence.recording"):
         monkeypatch.setattr(f"service.sessions.{module}.THREAD", 0)
 
 

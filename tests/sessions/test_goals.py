@@ -155,7 +155,7 @@ async def test_a_request_that_is_cancelled_abandons_its_search(monkeypatch: pyte
     task.cancel()
     with pytest.raises(asyncio.CancelledError):
         await task
-    await asyncio.gather(*session._tasks, return_exceptions=True)
+    await asyncio.gather(*session.tasks, return_exceptions=True)
     assert abandoned == [True]
 
 

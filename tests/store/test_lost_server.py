@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from service.store import EntryRecord, SessionRecord, SqlStore, StoredResponse, StoreError
+from service.store.engines import Sqlite
 
 
 class Line:
@@ -44,7 +45,11 @@ def under(key: str) -> StoredResponse:
 
 
 @pytest.fixture
-async def store(tmp_path: Path) -> AsyncIterator[SqlStore]:
+async def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> AsyncIterator[SqlStore]:
+    async def none_beside_the_engine(*_: object) -> bool:
+        return False
+
+    monkeypatch.setattr(Sqlite, "run", none_beside_the_engine)  # as with a server
     store = SqlStore(f"sqlite:///{tmp_path}/roads.db")
     await store.open()
     store._engine = Line(store._engine)  # type: ignore[assignment]

@@ -363,7 +363,10 @@ class Maker:
                     action["runs"] = self.random.randint(1, 1_000_000)
                 if self.chance(0.6) or "runs" not in action:
                     action["planners"] = self.random.sample(PLANNERS, self.random.randint(1, 3))
+                if self.chance(0.3):
+                    action["vary"] = {"time_of_day": self.random.sample(["day", "dusk", "night", "dawn"], 2)}
                 parts = {key: value for key, value in self.parts().items() if key != "planner"}
+                parts = {key: value for key, value in parts.items() if key not in action.get("vary", {})}
                 if parts and self.chance(0.5):
                     action["scenario"] = parts
                 return action

@@ -3,7 +3,7 @@ import { test } from "node:test";
 
 import { fileName, videoPath, recordingIn, sizeText, stretch } from "../../web/src/timeline/downloads.js";
 import { ask, askJson, Refused } from "../../web/src/core/http.js";
-import { hashOf, placeInHash } from "../../web/src/core/address.js";
+import { hashOf, placeInHash, raceHash } from "../../web/src/core/address.js";
 import { forkAt, forks, noteFork, shareLink } from "../../web/src/timeline/links.js";
 
 const page = new URL("http://localhost:8000/?x=1#/s/a");
@@ -12,7 +12,8 @@ test("an address names a session, a moment of it, or carries one whole", () => {
   assert.deepEqual(placeInHash("#/s/abc"), { session: "abc", tick: null });
   assert.deepEqual(placeInHash(hashOf("a b", 40)), { session: "a b", tick: 40 });
   assert.deepEqual(placeInHash("#/r/eJx-_9"), { carried: "#/r/eJx-_9" });
-  for (const hash of ["", "#", "#/s/", "#/s/a/b", "#/r/", "#/r/a b", "#/s/a/9999999999999999"]) assert.equal(placeInHash(hash), null, hash);
+  assert.deepEqual(placeInHash(raceHash("abc", ["rules", "astar"], 7)), { session: "abc", tick: null, race: { planners: ["rules", "astar"], tick: 7 } });
+  for (const hash of ["", "#", "#/c/abc", "#/c/abc/rules", "#/s/", "#/s/a/b", "#/r/", "#/r/a b", "#/s/a/9999999999999999"]) assert.equal(placeInHash(hash), null, hash);
 });
 
 test("a link is made of the page's own address", async () => {

@@ -38,9 +38,26 @@ export const page = createPage(store, connector, {
   wake: () => loop.wake(),
 });
 
-const panels = createPanels(page);
-const commands = [...COMMANDS, ...panels.flatMap((panel) => panel.commands ?? [])];
+const { panels, later } = createPanels(page);
+const commandsOf = () => [...COMMANDS, ...panels.flatMap((panel) => panel.commands ?? [])];
+let commands = commandsOf();
 let shown = INITIAL;
+/** Whether the panels that the first frame does without are asked for. */
+let complete = false;
+
+/** Fetches the rest of the panels; tried again with the next frame where the service was out of reach. */
+async function addPanels() {
+  try {
+    const added = await later();
+    panels.push(...added);
+    commands = commandsOf();
+    for (const panel of added) panel.update?.(shown, INITIAL);
+    loop.wake(true);
+  } catch {
+    complete = false;
+  }
+}
+
 const loop = createLoop({
   update() {
     const before = shown;
@@ -50,6 +67,10 @@ const loop = createLoop({
   draw(now) {
     let moving = false;
     for (const panel of panels) moving = (panel.draw?.(now) ?? false) || moving;
+    if (!complete && shown.world !== null) {
+      complete = true;
+      setTimeout(addPanels);
+    }
     return moving;
   },
 });

@@ -14,7 +14,9 @@ from sim.state import SimState, StepResult
 Json = dict[str, Any]
 
 
-def beside_json(status: SessionStatus, found: SideBySide, most: int, texts: SideBySideTexts) -> Json:
+def beside_json(
+    status: SessionStatus, found: SideBySide, most: int, texts: SideBySideTexts, parting: Json | None = None
+) -> Json:
     """Both runs, at most so many ticks of each."""
     return {
         "at_tick": found.tick,
@@ -23,6 +25,7 @@ def beside_json(status: SessionStatus, found: SideBySide, most: int, texts: Side
         "said_since": found.said_since,
         "real": _side_json(status, found.real, most, texts.real_end),
         "changed": _side_json(status, found.changed, most, texts.changed_end),
+        "parting": parting,
     }
 
 

@@ -6,29 +6,25 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from service.actions import dump
+from service.evaluations.report.figures import (
+    Behind,
+    Cell,
+    Table,
+    cases_table,
+    example_name,
+    figures_table,
+    pairs_table,
+)
 from service.evaluations.report.plots import Plot, draw_plots
 from service.narration.evaluation import EvaluationWords
 from service.sessions.persistence.link import pack_recording
 from service.sessions.persistence.recording import FORMAT, VERSION
 from service.version import VERSION as PROGRAM
-from sim.evaluate.closeness import TTC_S
+from sim.evaluate.failures import MOST
 from sim.evaluate.spec import DETAILED, Evaluation
 
-
-@dataclass(frozen=True, slots=True)
-class Cell:
-    """A cell of a table, and where it leads."""
-
-    text: str
-    link: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """A table; its first row names the columns."""
-
-    heading: str
-    rows: Sequence[Sequence[Cell]]
+__all__ = ["Cell", "Document", "Table", "episode_link", "make_document"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,13 +45,17 @@ def make_document(
 ) -> Document:
     """The report of an evaluation. `base`: the address of a service whose page opens the episodes."""
     plots = draw_plots(spec, summary, words)
+    behind = Behind(summary["examples"])
     tables = [
-        _figures(spec, summary, words),
-        *_pairs(spec, summary, words),
+        *cases_table(spec, summary, words, behind),
+        figures_table(spec, summary, words, behind),
+        *pairs_table(spec, summary, words, behind),
         *_look(spec, summary, words, base),
     ]
     method = [
+        words.label("drawn", told=words.whole(spec.config)),
         words.label("method", seed=spec.seed, close=min(DETAILED, spec.episodes)),
+        *([words.label("method_cases")] if spec.cases else []),
         words.label("program", version=PROGRAM, rules=spec.config.rules),
     ]
     return Document(
@@ -69,84 +69,28 @@ def make_document(
     )
 
 
-def _figures(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords) -> Table:
-    ttc = words.number(TTC_S, "g")
-    head = ["runs", "arrived", "interval", "crashed", "interval", "stuck", "interval"]
-    head += ["seconds", "interval", "median", "p90", "metres", "moves"]
-    names = [words.label("planner"), *(words.label(each) for each in head), words.label("near", ttc=ttc)]
-    names += [
-        words.label("exposed", ttc=ttc),
-        *(words.label(each) for each in ("ttc", "gap", "changes", "lost")),
-    ]
-    # One line for each figure and a column for each planner: there are more figures than planners.
-    columns = [names, *(_column(planner, summary["planners"][planner], words) for planner in spec.planners)]
-    return Table(words.label("figures"), [[Cell(text) for text in row] for row in zip(*columns, strict=True)])
-
-
-def _column(planner: str, figures: Mapping[str, Any], words: EvaluationWords) -> list[str]:
-    def interval(of: Mapping[str, Any]) -> str:
-        return f"{words.percent(of['low'], 2)}–{words.percent(of['high'], 2)} %"
-
-    cells = [words.planner(planner), words.number(figures["arrived"]["of"], ",")]
-    for name in ("arrived", "crashed", "stuck"):
-        part = figures[name]
-        cells += [f"{words.number(part['count'], ',')} ({words.percent(part['share'], 2)} %)", interval(part)]
-    seconds, close = figures["seconds"], figures["close"]
-    cells += [
-        words.number(seconds["mean"]),
-        f"{words.number(seconds['low'])}–{words.number(seconds['high'])}",
-        words.number(seconds["median"]),
-        words.number(seconds["p90"]),
-        words.number(figures["metres"]["mean"], ".1f"),
-        " / ".join(f"{words.percent(figures['moves'][name])} %" for name in _MOVES),
-        " / ".join(words.number(close["near_misses"][name], ",") for name in ("count", "of")),
-        words.number(close["exposed_s"]["mean"]),
-        words.number(close["ttc_s"]["median"]),
-        words.number(close["gap_m"]["median"]),
-        words.number(close["changes_per_10_moves"]),
-        words.number(close["lost_s"]["mean"]),
-    ]
-    return cells
-
-
-_MOVES = ("forward", "sideways", "diagonal", "stay")
-
-
-def _pairs(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords) -> list[Table]:
-    if not summary["comparisons"]:
-        return []
-    first = words.planner(spec.planners[0])
-    head = [words.label("planner"), words.label("both"), words.label("only", planner=first)]
-    head += [words.label("only", planner="↓"), words.label("neither"), words.label("difference")]
-    head += [words.label("interval"), words.label("p")]
-    rows = [head]
-    for pair in summary["comparisons"]:
-        counts = [words.number(pair[name], ",") for name in ("both", "only_first", "only_second", "neither")]
-        difference = pair["difference"]
-        shares = [words.percent(difference[name], 2) for name in ("share", "low", "high")]
-        name = f"{first} – {words.planner(pair['second'])}"
-        p_value = words.probability(pair["p_value"])
-        rows.append([name, *counts, shares[0], f"{shares[1]} … {shares[2]}", p_value])
-    return [Table(words.label("pairs"), [[Cell(text) for text in row] for row in rows])]
-
-
 def _look(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords, base: str) -> list[Table]:
     if not summary["examples"]:
         return []
-    head = [words.label(name) for name in ("planner", "seed", "outcome", "ticks")]
-    rows = [[Cell(text) for text in (*head, "")]]
-    for each in summary["examples"]:
+    cases = summary.get("cases", ())
+    names = ["planner", *(["condition"] if cases else []), "seed", "outcome", "ticks", "shows"]
+    rows = [[*(Cell(words.label(name)) for name in names), Cell("")]]
+    for number, each in enumerate(summary["examples"]):
         link = episode_link(spec, each, base)
+        condition = [Cell(words.condition(cases[each["case"]]["said"]))] if cases else []
         rows.append(
             [
-                Cell(words.planner(each["planner"])),
+                Cell(words.planner(each["planner"]), name=example_name(number)),
+                *condition,
                 Cell(str(each["seed"])),
                 Cell(words.label("outcomes", each["outcome"])),
                 Cell(str(each["ticks"])),
+                Cell(words.shows(each)),
                 Cell("" if link is None else words.label("open", tick=each["tick"]), link),
             ]
         )
-    return [Table(words.label("look"), rows)]
+    key = "legend" if spec.world is None else "legend_this"
+    return [Table(words.label("look"), rows, words.label(key, most=MOST))]
 
 
 def episode_link(spec: Evaluation, example: Mapping[str, Any], base: str = "") -> str | None:
@@ -156,15 +100,23 @@ def episode_link(spec: Evaluation, example: Mapping[str, Any], base: str = "") -
     """
     if spec.world is not None:
         return None
-    config = replace(spec.config, seed=example["seed"], planner=example["planner"])
+    alone = spec.under(example["case"]) if spec.cases else spec
+    config = replace(alone.config, seed=example["seed"], planner=example["planner"])
     recording = {
         "format": FORMAT,
         "version": VERSION,
         "rules": config.rules,
         "name": None,
         "config": asdict(config),
-        "entries": [],
+        "entries": _rules(alone),
         "tick": example["tick"],
         "digest": example["digest"],
     }
     return f"{base}/{pack_recording(recording)}"
+
+
+def _rules(spec: Evaluation) -> list[dict[str, Any]]:
+    """The rules of every episode as an entry of a recording."""
+    if not spec.rules:
+        return []
+    return [{"sequence": 1, "tick": 0, "text": None, "actions": dump(spec.rules)}]

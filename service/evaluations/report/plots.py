@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from typing import TYPE_CHECKING, Any, Final
@@ -37,29 +37,51 @@ def draw_plots(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWo
     # Text stays text, and the same figures make the same file.
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "roadtalk", "font.size": 10}):
         plots = [Plot(words.label("rates"), words.label("rates_alt"), _rates(spec, summary, words))]
+        if spec.cases:
+            plots.append(
+                Plot(words.label("by_case"), words.label("by_case_alt"), _cases(spec, summary, words))
+            )
         if any(summary["planners"][planner]["ticks"] for planner in spec.planners):
             plots.append(Plot(words.label("times"), words.label("times_alt"), _times(spec, summary, words)))
     return plots
 
 
 def _rates(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords) -> str:
-    """A point with its interval for each planner and each way to end."""
+    """A point with its interval for each way to end and each planner."""
+    rows = [
+        (words.label(end), [summary["planners"][planner][end] for planner in spec.planners])
+        for end in ("arrived", "crashed", "stuck")
+    ]
+    return _points(spec, words, rows)
+
+
+def _cases(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords) -> str:
+    """The share that arrived with its interval, for each condition and planner."""
+    rows = [
+        (words.condition(case["said"]), [case["planners"][planner]["arrived"] for planner in spec.planners])
+        for case in summary["cases"]
+    ]
+    return _points(spec, words, rows)
+
+
+def _points(
+    spec: Evaluation, words: EvaluationWords, rows: Sequence[tuple[str, Sequence[Mapping[str, Any]]]]
+) -> str:
+    """Shares with their intervals: a group for each row, a colour for each planner."""
     from matplotlib.figure import Figure
 
-    ends = ("arrived", "crashed", "stuck")
-    figure = Figure(figsize=(WIDTH_IN, 0.7 + 0.35 * len(ends) * len(spec.planners)), layout="constrained")
+    figure = Figure(figsize=(WIDTH_IN, 0.7 + 0.35 * len(rows) * len(spec.planners)), layout="constrained")
     axes = figure.subplots()
     ticks, labels = [], []
-    for row, end in enumerate(ends):
-        for place, planner in enumerate(spec.planners):
-            part = summary["planners"][planner][end]
+    for row, (name, shares) in enumerate(rows):
+        for place, part in enumerate(shares):
             at = -(row * (len(spec.planners) + 0.6) + place)
-            low, share, high = (100 * part[name] for name in ("low", "share", "high"))
+            low, share, high = (100 * part[edge] for edge in ("low", "share", "high"))
             axes.errorbar(
                 [share], [at], xerr=[[share - low], [high - share]], fmt="o", color=COLOURS[place], capsize=3
             )
             ticks.append(at)
-            labels.append(f"{words.label(end)} · {words.planner(planner)}")
+            labels.append(f"{name} · {words.planner(spec.planners[place])}")
     axes.set_yticks(ticks, labels)
     axes.set_xlim(-2, 102)
     axes.set_xlabel("%")
@@ -83,7 +105,7 @@ def _times(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords)
         seconds = [tick * spec.config.step_seconds for tick in range(first, last + 1)]
         heights = [100 * shares.get(tick, 0) / total for tick in range(first, last + 1)]
         axes.step(seconds, heights, where="mid", color=COLOURS[place], label=words.planner(planner))
-    axes.set_xlabel(words.label("seconds"))
+    axes.set_xlabel(words.label("seconds_axis"))
     axes.set_ylabel("%")
     axes.set_ylim(bottom=0)
     axes.grid(alpha=0.3)

@@ -10,7 +10,8 @@ from string import Template
 from typing import Final
 
 from service.evaluations.kinds import part_of
-from service.evaluations.report.document import Cell, Document, Table
+from service.evaluations.report.document import Document
+from service.evaluations.report.figures import Cell, Table
 from service.narration.evaluation import EvaluationWords
 from sim.evaluate.spec import Evaluation
 from sim.types import Outcome
@@ -22,12 +23,16 @@ _PAGE: Final = Template("""<!doctype html>
 <title>$title</title>
 <style>
 :root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 64rem; margin: 2rem auto; padding: 0 1rem; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
+th { vertical-align: bottom; }
+td { white-space: nowrap; }
 th, td { padding: .25rem .8rem .25rem 0; border-bottom: 1px solid #8886; text-align: left; }
 figure { margin: 1rem 0; background: #fff; color: #000; padding: .5rem; border-radius: .4rem; }
 figure svg { width: 100%; height: auto; }
 .wide { overflow-x: auto; }
+tr:target td { background: #fd06; }
+th:first-child, td:first-child { padding-left: .3rem; }
 .small { font-size: .85rem; opacity: .8; }
 progress { width: 100%; }
 </style>
@@ -63,12 +68,18 @@ def write_progress(title: str, language: str, done: int, total: int) -> str:
 def _html_table(table: Table) -> str:
     head, *rows = table.rows
     lines = ["<tr>" + "".join(f"<th>{escape(cell.text)}</th>" for cell in head) + "</tr>"]
-    lines += ["<tr>" + "".join(f"<td>{_html_cell(cell)}</td>" for cell in row) + "</tr>" for row in rows]
+    lines += [_html_row(row) for row in rows]
+    note = "" if table.note is None else f'<p class="small">{escape(table.note)}</p>\n'
     return (
-        f'<h2>{escape(table.heading)}</h2>\n<div class="wide"><table>\n'
+        f'<h2>{escape(table.heading)}</h2>\n{note}<div class="wide"><table>\n'
         + "\n".join(lines)
         + "\n</table></div>"
     )
+
+
+def _html_row(row: Sequence[Cell]) -> str:
+    name = next((f' id="{escape(cell.name)}"' for cell in row if cell.name is not None), "")
+    return f"<tr{name}>" + "".join(f"<td>{_html_cell(cell)}</td>" for cell in row) + "</tr>"
 
 
 def _html_cell(cell: Cell) -> str:
@@ -90,7 +101,8 @@ def _markdown_table(table: Table) -> str:
 
 def _markdown_cell(cell: Cell) -> str:
     text = cell.text.replace("|", "\\|")
-    return text if cell.link is None else f"[{text}]({cell.link})"
+    # Markdown has no names to lead to within a page.
+    return text if cell.link is None or cell.link.startswith("#") else f"[{text}]({cell.link})"
 
 
 def _line(cells: Sequence[str]) -> str:
@@ -104,11 +116,15 @@ def write_csv(spec: Evaluation, parts: Mapping[str, bytes]) -> str:
     outcomes = tuple(Outcome)
     ways = ("no", "yes", "")
     names = ("ticks", "forward", "sideways", "diagonal", "stay", "gap_m", "ttc_s", "exposed", "changes")
+    varied = list(dict.fromkeys(name for case in spec.cases for name in case.said))
     buffer = StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow(("episode", "seed", "planner", "outcome", "seconds", *names, "solvable"))
+    writer.writerow(("episode", "seed", "planner", "outcome", "seconds", *names, "solvable", *varied))
     for key in sorted(parts, key=part_of):
         rows, first = unpack(parts[key]), part_of(key).first
+        said: Mapping[str, object] = spec.cases[first // spec.episodes].said if spec.cases else {}
+        first %= spec.episodes
+        condition = [said.get(name, "") for name in varied]
         for planner in spec.planners:
             columns = rows[planner]
             figures = [columns[name].tolist() if name in columns else None for name in names]
@@ -120,5 +136,7 @@ def write_csv(spec: Evaluation, parts: Mapping[str, bytes]) -> str:
                 seconds = round(columns["ticks"][place].item() * spec.config.step_seconds, 6)
                 way = ways[rows[ROADS]["solvable"][place]]
                 index = first + place
-                writer.writerow((index, spec.seed + index, planner, outcomes[outcome], seconds, *values, way))
+                writer.writerow(
+                    (index, spec.seed + index, planner, outcomes[outcome], seconds, *values, way, *condition)
+                )
     return buffer.getvalue()

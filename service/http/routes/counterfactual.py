@@ -41,7 +41,7 @@ from service.sessions.availability import refusal_of
 from service.sessions.narrator_protocol import NarratorProtocol
 from sim.actions import WorldAction
 from sim.explain import QuestionError
-from sim.explain.side_by_side import compare_change, compare_move
+from sim.explain.side_by_side import SideBySide, compare_change, compare_move, compare_planners, parting
 from sim.session.errors import EditError
 from sim.session.timeline import Timeline
 from sim.types import Move
@@ -54,10 +54,16 @@ MAX_TICKS = 500
 EPISODE_TICKS = 100
 """Ticks that are decided for it, about: both runs go on to the end of their episode."""
 
+_Otherwise = Move | list[WorldAction] | tuple[str, str]
+
 _EXAMPLES: dict[str, Any] = {
     "move": {
         "summary": "Another move than the one made",
         "value": {"at_tick": 2, "move": "stay", "ticks": 40},
+    },
+    "planners": {
+        "summary": "Two planners on the same road",
+        "value": {"planners": ["rules", "astar"]},
     },
     "change": {
         "summary": "A change of the road, made now",
@@ -67,7 +73,7 @@ _EXAMPLES: dict[str, Any] = {
 
 
 class Otherwise(Sent):
-    """What is otherwise, and from when: a move or actions, one of the two."""
+    """What is otherwise, and from when: a move, actions or two planners, one of the three."""
 
     at_tick: Tick | None = Field(None, description="Default: now; of a move, the latest decision.")
     move: Literal["forward", "left", "right", "forward_left", "forward_right", "stay"] | None = Field(
@@ -75,6 +81,12 @@ class Otherwise(Sent):
     )
     actions: Strictly[list[Action]] | None = Field(
         None, min_length=1, max_length=MAX_ACTIONS, description="Done there, together or not at all."
+    )
+    planners: list[str] | None = Field(
+        None,
+        min_length=2,
+        max_length=2,
+        description="Two planners on this road; by default from where its episode began.",
     )
     ticks: int = Field(120, ge=1, le=MAX_TICKS, description="How many ticks of each are told at most.")
 
@@ -102,16 +114,22 @@ async def run_counterfactual(
 
     Both are as if nothing more had been said, so they differ in this and nothing else. No session is made.
     """
-    if (body.move is None) == (body.actions is None):
-        raise invalid([FieldProblem("move", "say either a move or actions")])
+    if sum(each is not None for each in (body.move, body.actions, body.planners)) != 1:
+        raise invalid([FieldProblem("move", "say either a move, actions or two planners")])
     timeline, status = session.timeline.copy(), session.status
     if body.at_tick is not None:
         tick = body.at_tick
+    elif body.planners is not None:
+        tick = timeline.state.world.episode_start
     else:
         tick = timeline.tick if body.actions else max(0, timeline.tick - 1)
     actions = _world_actions(body.actions or [], session.language)
 
-    otherwise: Move | list[WorldAction] = actions if body.move is None else Move(body.move)
+    otherwise: _Otherwise = actions
+    if body.move is not None:
+        otherwise = Move(body.move)
+    elif body.planners is not None:
+        otherwise = (body.planners[0], body.planners[1])
     try:
         value = await run_on_timeline(
             here,
@@ -132,7 +150,8 @@ async def run_counterfactual(
     except EditError as error:
         kind = NotAvailable if error.category == "not-available" else DoesNotFit
         sentence = refusals(session.language).edit(error)
-        raise kind(sentence, errors=[FieldProblem(f"actions.{error.field}", sentence)]) from error
+        field = "planners" if body.planners is not None else f"actions.{error.field}"
+        raise kind(sentence, errors=[FieldProblem(field, sentence)]) from error
     return json_response(value, headers=etag(status.sequence))
 
 
@@ -141,14 +160,29 @@ def _compare(
     status: SessionStatus,
     timeline: Timeline,
     tick: int,
-    otherwise: Move | list[WorldAction],
+    otherwise: _Otherwise,
     told: int,
 ) -> dict[str, Any]:
     if isinstance(otherwise, Move):
         compared = compare_move(timeline, tick, otherwise)
+    elif isinstance(otherwise, tuple):
+        compared = compare_planners(timeline, tick, otherwise)
     else:
         compared = compare_change(timeline, tick, otherwise)
-    return beside_json(status, compared, told, narrator.side_by_side(compared))
+    texts = narrator.side_by_side(compared)
+    return beside_json(status, compared, told, texts, _parting(narrator, compared))
+
+
+def _parting(narrator: NarratorProtocol, compared: SideBySide) -> dict[str, Any] | None:
+    found = parting(compared)
+    if found is None:
+        return None
+    one, first, other, second = found
+    return {
+        "tick": one.world.tick,
+        "real": {"move": first.move, "text": narrator.decision(first, one)},
+        "changed": {"move": second.move, "text": narrator.decision(second, other)},
+    }
 
 
 def _world_actions(actions: list[Action], language: str) -> list[WorldAction]:

@@ -6,24 +6,31 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Annotated, Any, Literal, cast
 
+import orjson
 from anyio import to_thread
 from fastapi import Body, Query, Request, Response
 
-from service.actions import Evaluate
+from service.actions import Evaluate, FindWorst
 from service.contract import answers as schemas
 from service.contract import requests as bodies
-from service.evaluations.kinds import EVALUATION
 from service.evaluations.refuse import refuse_evaluation
-from service.evaluations.request import evaluation_of
-from service.evaluations.start import job_spec
+from service.evaluations.request import RUNS, evaluation_of, falsification_of
+from service.evaluations.start import job_spec, kind_of
 from service.http import examples
 from service.http.content_type import JSON_ONLY
 from service.http.deps import Context, Here
 from service.http.errors import problem_responses
-from service.http.evaluation_json import evaluation_json, evaluation_links, language_of, summary_json
+from service.http.evaluation_json import (
+    evaluation_json,
+    evaluation_links,
+    job_view,
+    language_of,
+    summary_json,
+)
 from service.http.pagination import After, Limit, cursor, page_json
 from service.http.responses import json_response
 from service.http.route import api_router
+from service.http.route_policy import policy
 from service.http.routes.create_session import described_config
 from service.http.validation import invalid
 from service.jobs import JobState
@@ -31,6 +38,7 @@ from service.narration import evaluation_words
 from service.problems import (
     Ambiguous,
     ContentTooLarge,
+    DoesNotFit,
     FieldProblem,
     Invalid,
     Malformed,
@@ -46,18 +54,25 @@ from service.problems import (
 )
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
+from service.scenarios import ScenarioError, read_scenario
+from service.scenarios.begin import evaluation_of_scenario
 from service.sessions.session import Session
 from service.store import JobRecord
+from sim.config import ConfigError
 from sim.evaluate import Evaluation, EvaluationError
+from sim.falsify import Falsification
+from sim.generation import GenerationError
+from sim.session.errors import EditError
 
 router = api_router("evaluations")
 
-_ALONE = ("runs", "planners", "scenario", "config", "road")
+_ALONE = ("find", "runs", "planners", "scenario", "config", "road", "vary", "file")
 """What a sentence says itself."""
 _REPORT_POLICY = {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
 }
 """A report holds its own styles, and loads nothing."""
+_TICKET = "Opens it without a key; part of `links.report`, for a day."
 _LOCATION = {"headers": {"Location": {"description": "Where it is.", "schema": {"type": "string"}}}}
 _FORMATS = {
     "html": "text/html; charset=utf-8",
@@ -80,6 +95,7 @@ _FORMATS = {
             ContentTooLarge,
             UnsupportedMediaType,
             Invalid,
+            DoesNotFit,
             NotAvailable,
             NotUnderstood,
             UnknownSession,
@@ -101,10 +117,10 @@ async def create_evaluation(
     language = body.language or (session.language if session else DEFAULT_LANGUAGE)
     here.interpreter.languages.check(language)
     spec = await _read_evaluation(here, body, session, language)
-    record = await here.jobs.start(
-        EVALUATION, job_spec(spec, language, None if session is None else session.id), language=language
-    )
-    return json_response(evaluation_json(record), 202, {"Location": evaluation_links(record.id)["self"]})
+    job = job_spec(spec, language, None if session is None else session.id)
+    record = await here.jobs.start(kind_of(spec), job, language=language)
+    where = {"Location": evaluation_links(record.id)["self"]}
+    return json_response(evaluation_json(record, here.guard.link_tickets), 202, where)
 
 
 @router.get(
@@ -127,7 +143,7 @@ async def list_evaluations(here: Here, after: After = None, limit: Limit = 50) -
 )
 async def read_evaluation(evaluation_id: str, here: Here) -> Response:
     """How far it is, and what came of it."""
-    return json_response(evaluation_json(await here.jobs.get(evaluation_id)))
+    return json_response(evaluation_json(await here.jobs.get(evaluation_id), here.guard.link_tickets))
 
 
 @router.delete(
@@ -161,11 +177,13 @@ async def delete_evaluation(evaluation_id: str, here: Here) -> Response:
         **problem_responses(UnknownJob, Invalid, NotFinished, NotSaved),
     },
 )
+@policy(link=True)
 async def read_report(
     evaluation_id: str,
     here: Here,
     request: Request,
     format: Annotated[Literal["html", "markdown", "json", "csv"], Query()] = "html",
+    ticket: Annotated[str | None, Query(max_length=100, description=_TICKET)] = None,  # noqa: ARG001
 ) -> Response:
     """In plain language first, then plots and tables; `csv` has a line for each episode and planner.
 
@@ -191,30 +209,27 @@ def _report(text: str, format: str) -> Response:
 def _write_progress(record: JobRecord) -> str:
     from service.evaluations.report.write import write_progress
 
-    language = language_of(record)
-    title = evaluation_words(language).title(Evaluation.from_json(record.spec))
-    return write_progress(title, language, record.done, record.total)
+    return write_progress(job_view(record).title, language_of(record), record.done, record.total)
 
 
 def _write(record: JobRecord, format: str, base: str, parts: Mapping[str, bytes]) -> str:
     """A report as text. For a thread: drawing and writing take a second."""
-    from service.evaluations.report.document import make_document
-    from service.evaluations.report.write import write_csv, write_html, write_markdown
+    from service.evaluations.report.write import write_html, write_markdown
 
-    spec = Evaluation.from_json(record.spec)
+    view, words = job_view(record), evaluation_words(language_of(record))
     if format == "csv":
-        return write_csv(spec, parts)
-    language = language_of(record)
-    words = evaluation_words(language)
+        return view.csv(parts)
     assert record.result is not None
-    document = make_document(spec, record.result, words, language, base)
+    document = view.document(record.result, base)
     return write_html(document, words) if format == "html" else write_markdown(document, words)
 
 
 async def _read_evaluation(
     here: Context, body: bodies.NewEvaluation, session: Session | None, language: str
-) -> Evaluation:
-    """The evaluation that is asked for. Raises a `ProblemError`."""
+) -> Evaluation | Falsification:
+    """The evaluation or search that is asked for. Raises a `ProblemError`."""
+    if body.file is not None:
+        return await to_thread.run_sync(_read_file, body, language)
     state = None if session is None else session.run
     if session is not None and (body.scenario or body.config):
         raise invalid([FieldProblem("session", "names the roads already; leave out scenario and config")])
@@ -226,8 +241,7 @@ async def _read_evaluation(
             raise invalid(FieldProblem(name, "is said in the text already") for name in twice)
         action = await _read_sentence(here, body.text, session, language)
     else:
-        planners = None if body.planners is None else tuple(body.planners)
-        action = Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road)
+        action = _typed(body)
     if state is None:
         parts = {"seed": 0, **(body.config or {})}
         asked = bodies.NewSession.model_validate({"scenario": body.scenario, "config": parts})
@@ -235,16 +249,63 @@ async def _read_evaluation(
     else:
         config = state.config_of()
     try:
+        if isinstance(action, FindWorst):
+            return falsification_of(action, config, body.seed)
         return await to_thread.run_sync(evaluation_of, action, config, state, body.seed)
     except EvaluationError as error:
         raise refuse_evaluation(error, refusals(language)) from error
 
 
-async def _read_sentence(here: Context, text: str, session: Session | None, language: str) -> Evaluate:
-    """The one evaluation that a sentence asks for. Raises `Invalid`, `NotUnderstood` or `Ambiguous`."""
+def _typed(body: bodies.NewEvaluation) -> Evaluate | FindWorst:
+    """What is asked for in figures. Raises `Invalid`."""
+    planners = None if body.planners is None else tuple(body.planners)
+    if body.find is None:
+        return Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road, vary=body.vary)
+    if body.vary is not None:
+        raise invalid([FieldProblem("vary", "compares episodes; a search draws its worlds itself")])
+    if body.road is not None:
+        raise invalid([FieldProblem("road", "is what is searched for; leave it out")])
+    if planners is not None and len(planners) > 1:
+        raise invalid([FieldProblem("planners", "is one planner where its failures are searched")])
+    return FindWorst(runs=body.runs, planner=cast(Any, planners[0] if planners else None))
+
+
+async def _read_sentence(
+    here: Context, text: str, session: Session | None, language: str
+) -> Evaluate | FindWorst:
+    """The one evaluation or search that is asked for.
+
+    Raises `Invalid`, `NotUnderstood` or `Ambiguous`.
+    """
     heard = await here.interpreter.interpret(text, session, language)
     match heard.actions:
-        case (Evaluate() as action,):
+        case (Evaluate() | FindWorst() as action,):
             return action
     sentence = refusals(language).said("no_evaluation")
     raise NotUnderstood(sentence, errors=[FieldProblem("text", sentence)], understood=[text])
+
+
+_BESIDE_FILE = ("text", "scenario", "config", "vary", "session", "road")
+"""What a scenario file says itself."""
+
+
+def _read_file(body: bodies.NewEvaluation, language: str) -> Evaluation:
+    """The evaluation of a scenario file. Raises a `ProblemError`. For a thread: it may draw a road."""
+    twice = [name for name in _BESIDE_FILE if getattr(body, name) is not None]
+    if twice:
+        raise invalid(FieldProblem(name, "is said in the file already") for name in twice)
+    words = refusals(language)
+    try:
+        scenario = read_scenario(orjson.dumps(body.file).decode())
+        return evaluation_of_scenario(
+            scenario, RUNS if body.runs is None else body.runs, tuple(body.planners or ()), body.seed
+        )
+    except ScenarioError as error:
+        flaws = [FieldProblem(f"file.{each.field}".rstrip("."), each.message) for each in error.flaws]
+        raise invalid(flaws) from error
+    except EvaluationError as error:
+        raise refuse_evaluation(error, words) from error
+    except EditError as error:
+        raise DoesNotFit(words.edit(error), errors=[FieldProblem("file", words.edit(error))]) from error
+    except (ConfigError, GenerationError) as error:
+        raise invalid([FieldProblem("file", str(error))]) from error

@@ -13,9 +13,18 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
+from service.http.middleware.security_headers import SECURITY_HEADERS
 from service.http.page_texts import StaticTexts, page_languages
 from service.http.static import StaticFile, StaticPage
 from service.resources import web_folder
+
+EMBED_HEADERS = {
+    "Content-Security-Policy": SECURITY_HEADERS["Content-Security-Policy"].replace(
+        "frame-ancestors 'none'; ", ""
+    )
+}
+"""Any page, a local file or a notebook may show the embedded run in a frame, and nothing else of the service.
+It has no button that changes a session, so that a press that is led astray does no harm."""
 
 _KINDS = (".css", ".js", ".svg")
 
@@ -26,6 +35,7 @@ def install(app: FastAPI) -> None:
     mimetypes.add_type("text/javascript", ".js")
     web = web_folder()
     add_file(app, "/", StaticPage(web / "index.html"))
+    add_file(app, "/embed", StaticPage(web / "embed.html", EMBED_HEADERS))
     for code in page_languages():
         add_file(app, f"/texts/{code}.json", StaticTexts(code))
     for path in sorted(web.iterdir()):

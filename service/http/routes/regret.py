@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import hypot
 from typing import Annotated, Any
 
 from fastapi import Query, Response
@@ -18,6 +19,7 @@ from service.problems import Invalid, NotRestorable, UnknownSession
 from service.work.units import search_units
 from sim.oracle.regret import regret
 from sim.session.timeline import Timeline
+from sim.state import SimState
 
 router = api_router("watching")
 
@@ -66,4 +68,12 @@ def _judge(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:
             "ticks": loss.ticks,
             "cost": loss.cost,
             "lost": loss.lost,
+            "clearance_m": _clearance_m(run),
         }
+
+
+def _clearance_m(run: SimState) -> float | None:
+    """How near the vehicle is to anything else, centre to centre [m]."""
+    column, row = run.world.road.cell(run.world.av)
+    apart = [hypot(thing.cell[0] - column, thing.cell[1] - row) for thing in run.world.things()]
+    return round(min(apart) * run.config.cell_m, 2) if apart else None

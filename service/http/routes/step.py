@@ -29,7 +29,7 @@ from service.problems import (
     UnknownSession,
     UnsupportedMediaType,
 )
-from service.sessions.session import MAX_STREAMED_TICKS
+from service.sessions.change import MAX_STREAMED_TICKS
 from service.sessions.utterance import Outcome, Utterance
 
 router = api_router("talking")

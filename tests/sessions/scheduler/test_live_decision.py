@@ -93,7 +93,7 @@ async def test_a_decision_that_never_comes_hands_the_vehicle_over(lane: _Lane) -
     await settle()
     lane.asked.pop()[2].set_exception(NoDecisionError("did not answer within 30 s"))
     await settle()
-    await asyncio.gather(*session._tasks)
+    await asyncio.gather(*session.tasks)
     assert session.run.mode is Mode.MANUAL
     assert "did not answer within 30 s" in session.log.latest(1)[0].text
 

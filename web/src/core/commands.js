@@ -67,8 +67,11 @@ export const COMMANDS = [
     button: true,
     key: " ",
     keyName: t("clock.space"),
-    now: ({ past, world }) => {
-      if (past) return { label: t("clock.play"), icon: "play", run: (page) => page.timeTravel.toggle() };
+    now: ({ look, past, world }) => {
+      if (past) {
+        const doing = look.playing ? "pause" : "play";
+        return { label: t(`clock.${doing}`), icon: doing, run: (page) => page.timeTravel.toggle() };
+      }
       return world?.paused
         ? { label: t("clock.resume"), icon: "play", turns: [[{ do: "resume" }]] }
         : { label: t("clock.pause"), icon: "pause", turns: [[{ do: "pause" }]] };

@@ -42,6 +42,7 @@ export function lazyPanel(page, isWanted, make) {
       if (panel) panel.update?.(state, before);
       else if (isWanted(state)) wanted((made) => made.update?.(page.state(), before));
     },
+    draw: (now) => panel?.draw?.(now) ?? false,
     repaint: () => panel?.repaint?.(),
   };
 }

@@ -320,6 +320,8 @@ export interface Counterfactual {
   changed: Side;
   /** What differs, in a sentence or two. */
   text?: string;
+  /** Where they first decide differently; null where they never do. */
+  parting?: Parting | null;
 }
 
 /** What an ego crashed with. Met in one cell (`hit`), passing through one another (`swap`), or cut off on a diagonal (`cross`). */
@@ -398,27 +400,32 @@ export interface Evaluate {
   planners?: ("rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative")[] | null;
   scenario?: ScenarioParts | null;
   road?: "this" | null;
+  vary?: Varied | null;
 }
 
 /** An evaluation as it stands. */
 export interface Evaluation {
   id: string;
+  /** What it is: episodes that are compared, or a search for worlds that a planner fails. */
+  kind: "evaluation" | "find_worst";
   state: "queued" | "running" | "done" | "failed" | "cancelled";
   created_at: string;
   /** What it runs, in words. */
   title: string;
-  /** Episodes of each planner. */
+  /** Episodes of each planner, or worlds that are searched. */
   runs: number;
   planners: string[];
-  /** Episode i is drawn from this seed + i, for every planner. */
+  /** Episode (or world) i is drawn from this seed + i, for every planner. */
   seed: number;
-  /** What the roads are drawn from. */
+  /** What the roads are drawn from; a search draws numbers of things and layouts itself. */
   config: { [key: string]: unknown };
   /** Whether all episodes start from one road, that of the session it was asked of. */
   same_road: boolean;
-  /** Episodes that are done. */
+  /** What is compared beside the planners, such as `{"weather": "fog"}`; empty where nothing is. */
+  conditions: ({ [key: string]: unknown })[];
+  /** Episodes of each planner that are done, under all conditions together; or worlds that are done. */
   done: number;
-  /** The share of the episodes that are done. */
+  /** The share of the work that is done. */
   progress: number;
   /** What came of it in plain language, once it is done. */
   text: string[] | null;
@@ -439,13 +446,21 @@ export interface EvaluationPage {
 /** An evaluation in a list. */
 export interface EvaluationSummary {
   id: string;
+  /** What it is: episodes that are compared, or a search for worlds that a planner fails. */
+  kind: "evaluation" | "find_worst";
   state: "queued" | "running" | "done" | "failed" | "cancelled";
   created_at: string;
   /** What it runs, in words. */
   title: string;
-  /** The share of the episodes that are done. */
+  /** The share of the work that is done. */
   progress: number;
   links: { [key: string]: string };
+}
+
+/** How the session's latest evaluation stands, or its end before it is done. */
+export interface EvaluationTalk {
+  do: "evaluation";
+  want: "progress" | "cancel";
 }
 
 /** Lines of the log, oldest first. */
@@ -582,6 +597,8 @@ export interface JudgedDecision {
   cost: number | null;
   /** Whether the goal could be reached before the move, and not after it. */
   lost: boolean;
+  /** From the vehicle to what is nearest on the road, centre to centre; null where nothing else is there. */
+  clearance_m?: number | null;
 }
 
 /** What a thing on the road is. */
@@ -718,7 +735,9 @@ export interface Mover {
 export interface NewEvaluation {
   /** As a sentence, such as `run 500 episodes with A*`. Beside it: session, seed, language. */
   text?: string | null;
-  /** Episodes of each planner, up to 1,000,000. Default: 100. */
+  /** Search for worlds that one planner fails although they can be driven; numbers of things and layouts are drawn. Default: run episodes. */
+  find?: "worst" | null;
+  /** Episodes of each planner, up to 1,000,000; default 100. Of a search: worlds, up to 100,000; default 1,000. */
   runs?: number | null;
   /** Compared on the same roads, each with the first. Default: the road's. */
   planners?: string[] | null;
@@ -752,12 +771,19 @@ export interface NewEvaluation {
     weather?: "clear" | "rain" | "fog" | "snow";
     time_of_day?: "day" | "dusk" | "night" | "dawn";
     detection_sensitivity?: number;
+    sensor_range_m?: number;
+    sensor_noise?: number;
+    false_positive_rate?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
     solvable?: boolean;
     seed?: number;
   } | null;
+  /** Values that are compared, such as `weather` of `clear` and `fog`: each combination is run from the same seeds, and all are compared with the first. */
+  vary?: Varied | null;
+  /** A scenario file, as JSON (see `roadtalk scenario schema`). Beside it: runs, planners, seed, language. */
+  file?: { [key: string]: unknown } | null;
   /** Roads as in this session; alone or with a text, runs, planners. */
   session?: string | null;
   /** The session's own road from this moment on, in place of roads that are drawn. */
@@ -811,6 +837,9 @@ export interface NewSession {
     weather?: "clear" | "rain" | "fog" | "snow";
     time_of_day?: "day" | "dusk" | "night" | "dawn";
     detection_sensitivity?: number;
+    sensor_range_m?: number;
+    sensor_noise?: number;
+    false_positive_rate?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -850,7 +879,7 @@ export interface Option {
   text?: string;
 }
 
-/** What is otherwise, and from when: a move or actions, one of the two. */
+/** What is otherwise, and from when: a move, actions or two planners, one of the three. */
 export interface Otherwise {
   /** Default: now; of a move, the latest decision. */
   at_tick?: number | null;
@@ -858,6 +887,8 @@ export interface Otherwise {
   move?: "forward" | "left" | "right" | "forward_left" | "forward_right" | "stay" | null;
   /** Done there, together or not at all. */
   actions?: Action[] | null;
+  /** Two planners on this road; by default from where its episode began. */
+  planners?: [string, string] | null;
   /** How many ticks of each are told at most. */
   ticks?: number;
 }
@@ -878,6 +909,21 @@ export interface Parsed {
   actions: Action[];
   source: "grammar" | "llm";
   corrections: Correction[];
+}
+
+/** The first tick at which the two decide differently. */
+export interface Parting {
+  /** Ticks since the session began. */
+  tick: number;
+  real: PartingMove;
+  changed: PartingMove;
+}
+
+/** What one of the two does where they part. */
+export interface PartingMove {
+  move: Move;
+  /** The move and its reason in a sentence. */
+  text: string;
 }
 
 /** Stop the clock. */
@@ -1030,6 +1076,9 @@ export interface Recording {
     weather?: "clear" | "rain" | "fog" | "snow";
     time_of_day?: "day" | "dusk" | "night" | "dawn";
     detection_sensitivity?: number;
+    sensor_range_m?: number;
+    sensor_noise?: number;
+    false_positive_rate?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -1259,6 +1308,8 @@ export interface Session {
   pending?: PendingQuestion | null;
   /** Of a fork, or a session that a link opened; else null. */
   parent: Parent | null;
+  /** Open streams of it, sockets and events alike. */
+  watchers?: number;
   links: { [key: string]: string };
 }
 
@@ -1562,6 +1613,18 @@ export interface UnsubscribedMessage {
   type: "unsubscribed";
 }
 
+/** Values that are compared: an evaluation runs under each combination of them, from the same seeds. */
+export interface Varied {
+  weather?: ("clear" | "rain" | "fog" | "snow")[] | null;
+  time_of_day?: ("day" | "dusk" | "night" | "dawn")[] | null;
+  sensor?: ("perfect" | "camera" | "lidar" | "radar" | "fusion")[] | null;
+  traffic?: ("none" | "light" | "normal" | "heavy")[] | null;
+  potholes?: number[] | null;
+  vehicles?: number[] | null;
+  barriers?: number[] | null;
+  pedestrians?: number[] | null;
+}
+
 /** An ego: a vehicle that a planner or a person drives. Other vehicles are movers. */
 export interface Vehicle {
   id: string;
@@ -1604,4 +1667,4 @@ export interface Which {
 }
 
 /** One action of the language contract. */
-export type Action = Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Trigger | Cancel | Goal | Style | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Chat | Evaluate | FindWorst | Advise | Save | Load | Record | Teach | Forget | Drop;
+export type Action = Add | Remove | SetCount | MoveThings | Swap | Replace | Copy | Scenario | Reset | SetMode | Drive | Set | Adjust | Prefer | Trigger | Cancel | Goal | Style | Pause | Resume | Undo | Redo | Step | Rewind | Show | Hide | Ask | Chat | Evaluate | EvaluationTalk | FindWorst | Advise | Save | Load | Record | Teach | Forget | Drop;

@@ -48,7 +48,7 @@ function plannerItems(page) {
   const driver = world && driverOf(world);
   // A planner of another package is in no table.
   const all = driver === null || DRIVERS.includes(driver) ? DRIVERS : [...DRIVERS, driver];
-  return all.map((name) => ({
+  const choices = all.map((name) => ({
     name: `planner-${name}`,
     label: nameOf(name),
     note: hasText(`planners_about.${name}`) ? t(`planners_about.${name}`) : "",
@@ -57,16 +57,42 @@ function plannerItems(page) {
     closes: true,
     run: () => chooseDriver(name, page),
   }));
+  const compare = { name: "compare-planners", label: t("planner_race.open"), note: t("planner_race.about"), run: () => race(page) };
+  return [...choices, null, compare];
+}
+
+/** Two planners on this road: the one that drives, and another. @param {Page} page @param {string} [other] */
+function race(page, other) {
+  const { world } = page.state();
+  if (!world) return;
+  const against = other ?? (world.planner === "astar" ? "rules" : "astar");
+  page.pick({ kind: "planners", tick: null, planners: [world.planner, against] });
+}
+
+/** @returns {Command[]} */
+function raceCommands() {
+  const group = t("groups.driver");
+  return [
+    { name: "compare-planners", group, now: ({ world }) => world && { label: t("planner_race.open_long"), run: (page) => race(page) } },
+    ...PLANNERS.map((name) => ({
+      name: `compare-${name}`,
+      group,
+      now: (/** @type {State} */ { world }) =>
+        world === null || world.planner === name ? null : { label: t("planner_race.with", { name: plannerName(name) }), run: (/** @type {Page} */ page) => race(page, name) },
+    })),
+  ];
 }
 
 /** The same from the palette. @returns {Command[]} */
 export function driverCommands() {
-  return DRIVERS.map((name) => ({
+  /** @type {Command[]} */
+  const drivers = DRIVERS.map((name) => ({
     name: `driver-${name}`,
     group: t("groups.driver"),
     now: ({ past, world }) =>
       world === null || past || driverOf(world) === name ? null : { label: chosenText(name), turns: [handOver(name, world)] },
   }));
+  return [...drivers, ...raceCommands()];
 }
 
 /**

@@ -1,7 +1,8 @@
 // @ts-check
 /**
- * The end of an episode: what happened in a line, and what can be done about it. The clock is stopped for it where a
- * person watches at a speed one can follow, so that the next road does not begin while they look.
+ * The end of an episode: what happened in a line, and what can be done about it. A person who watches at a speed one can
+ * follow is not shown the next road while they look: the clock is stopped for them, or where others watch as well, their
+ * own view stays at the end.
  */
 
 import { html, live, nothing } from "../../vendor/lit-html.js";
@@ -24,12 +25,43 @@ const OF_ROADS = new Set(["episode_started", "road_kept", "no_way", "way_open"])
 /** A preference: whether the next road begins by itself. */
 const GOES_ON = "ends_go_on";
 
-/** Whether the clock is to be stopped: an episode has just ended before somebody's eyes. @param {State} state @param {State} before */
+/** Whether the end is to be held: an episode has just ended before somebody's eyes. @param {State} state @param {State} before */
 export function endsNow({ world, connection, past }, before) {
   if (!world || world.status === "running" || world.paused || past !== null || connection.phase !== "live") return false;
   if (before.world?.status !== "running" || before.world.episode !== world.episode) return false;
   const followed = world.pace !== "max" && world.pace <= FASTEST_WATCHED;
   return followed && !document.hidden && preference(GOES_ON) !== "yes";
+}
+
+/**
+ * Holds the end of an episode: stops the clock of a session that nobody else watches; else, or where the next road has
+ * begun, only this page stays there.
+ * @param {Page} page
+ */
+export function createHold(page) {
+  /** @type {{tick: number, seen: boolean} | null} the end at which the view stays */ let held = null;
+  return {
+    /** @param {NonNullable<State["world"]>} ended */
+    async begin({ tick, episode }) {
+      const { session } = page.state();
+      if (!session) return;
+      const { watchers } = await askJson(sessionPath(session)).catch(() => ({ watchers: 1 }));
+      const { look, world, session: now } = page.state();
+      if (now !== session || look.tick !== null || !world) return;
+      if (watchers <= 1 && world.episode === episode) page.act([{ do: "pause" }], t("clock.pause"), true);
+      else held = { tick, seen: false };
+    },
+
+    /** Whether the view stays at an end; a look elsewhere ends that. */
+    follow() {
+      const { look, world } = page.state();
+      if (held === null) return false;
+      if (look.tick === held.tick) held.seen = true;
+      else if (held.seen || look.tick !== null) held = null;
+      else if (world && world.tick > held.tick) void page.timeTravel.at(held.tick);
+      return held?.seen === true;
+    },
+  };
 }
 
 /** The line that told of the end. @param {State} state */
@@ -86,7 +118,8 @@ function driveActions(from, page) {
 
 /** On to the next road: over what is left of the time for which a result stands. @param {Page} page @param {number} end */
 export async function goOn(page, end) {
-  const { session, world } = page.state();
+  const { look, session, world } = page.state();
+  if (look.tick !== null) return page.timeTravel.live();
   if (!session || !world || world.status === "running") return;
   const { config } = await askJson(sessionPath(session)).catch(() => ({ config: {} }));
   const now = page.state().world;

@@ -11,12 +11,11 @@ import { createCounterfactual } from "../why/counterfactualLoader.js";
 import { createConnectionBadge } from "./connection.js";
 import { createControls } from "./controls.js";
 import { createHelpLoader, createPaletteLoader } from "../talk/dialogLoader.js";
+import { createDriving } from "../road/driving.js";
 import { createExport } from "../timeline/export.js";
 import { createForesight } from "../why/forecastPoller.js";
-import { createRoadInput } from "../road/roadInput.js";
 import { createLanes } from "../road/laneList.js";
 import { createLog } from "./log.js";
-import { createMetrics } from "./metrics.js";
 import { createNotice } from "../ui/notice.js";
 import { createOccupancy } from "./occupancy.js";
 import { createPast } from "../timeline/pastBar.js";
@@ -33,6 +32,7 @@ import { createStatus } from "./status.js";
 import { createTabs } from "./tabs.js";
 import { createTalk } from "../talk/conversation.js";
 import { createTourLoader } from "./tourLoader.js";
+import { createStripLoader } from "../timeline/stripLoader.js";
 import { createTimeline } from "../timeline/timeline.js";
 import { createVerdict } from "./verdict.js";
 import { createViews } from "./views.js";
@@ -49,15 +49,16 @@ import { createViews } from "./views.js";
  * @property {Command[]} [commands]  what can be done with it by a key or from the palette
  */
 
-/** @param {Page} page @returns {Panel[]} */
+/** @param {Page} page @returns {{panels: Panel[], later: () => Promise<Panel[]>}}  `later`: those that the first frame does without */
 export function createPanels(page) {
   byId("new-session").addEventListener("click", () => page.startSession());
   const road = createRoad(byId("road"));
   const card = createCard(byId("bubble"), page);
-  return [
+  const panels = [
     road,
     createVerdict(byId("road"), page, road.places),
     createTimeline(byId("timeline"), page),
+    createStripLoader(byId("strip"), page),
     createPast(byId("past"), page),
     createSessionMenu(byId("session-menu"), page),
     createExport(byId("files"), page),
@@ -74,7 +75,7 @@ export function createPanels(page) {
     createAnnouncer(byId("announcer")),
     createCounterfactual(byId("beside"), page),
     card,
-    ...createRoadInput(byId("road"), road.places, byId("log"), page, card),
+    createDriving(byId("road"), byId("driving"), page),
     createViews(byId("views-menu"), page),
     createTabs(byId("tabs"), page),
     createAppearance(),
@@ -85,10 +86,16 @@ export function createPanels(page) {
     createForesight(page),
     createPlan(byId("plan"), byId("plan-when"), page),
     createOccupancy(byId("occupancy")),
-    createMetrics(byId("metrics"), page),
     createReader(),
     createQuizLoader(page),
     createPaletteLoader(/** @type {HTMLDialogElement} */ (byId("palette")), page),
     createHelpLoader(byId("help"), /** @type {HTMLDialogElement} */ (byId("help-dialog")), page),
   ];
+  return {
+    panels,
+    async later() {
+      const { createLaterPanels } = await import("./later.js");
+      return createLaterPanels(page, road.places, card);
+    },
+  };
 }

@@ -19,7 +19,7 @@ export function createLog(host) {
 
   function show() {
     render(
-      html`<ol class="log-lines" tabindex="0" aria-label=${t("log.label")} @scroll=${scrolled}>
+      html`<ol class="log-lines" tabindex="0" aria-label=${t("log.label")} data-none=${t("log.none")} @scroll=${scrolled}>
           ${repeat(lines, ({ key }) => key, (line) => row(line, line === looked))}
         </ol>
         <button class="button small newest" type="button" ?hidden=${following} @click=${() => follow(true)}>${t("log.newest")}</button>`,

@@ -1,5 +1,5 @@
 // @ts-check
-/** The road as the program has it: a matrix of 0 and 1, each 1 in the colour of what stands there; squares where figures could not be read. */
+/** The road as the program has it: a matrix of 0 and 1, each 1 in the colour of what stands there; around the vehicle where not all of it could be read. */
 
 import { html, render } from "../../vendor/lit-html.js";
 import { listText, t } from "../core/texts.js";
@@ -11,6 +11,11 @@ import { find, fitCanvas } from "../ui/slot.js";
 
 /** @import { World } from "../road/world.js" */
 /** @import { Panel } from "./index.js" */
+
+/** The least size of a cell whose figure can be read [px]. */
+const LEAST_CELL = { across: 11, along: 14 };
+/** The share of the rows that lies ahead of the vehicle, where not all are shown. */
+const AHEAD = 0.65;
 
 /** @param {HTMLElement} host @returns {Panel} */
 export function createOccupancy(host) {
@@ -64,11 +69,24 @@ export function createOccupancy(host) {
   };
 }
 
-/** Cells no wider than they need to be, in the middle. @param {World} world @param {number} width @param {number} height */
-function layout({ columns, rows }, width, height) {
-  const along = height / rows;
-  const across = Math.min(width / columns, along * 1.7);
-  return { x: (width - across * columns) / 2, y: 0, across, along };
+/**
+ * Where the matrix is drawn. Where not all of it can be read at once, the stretch around the vehicle is shown.
+ * @param {World} world @param {number} width @param {number} height
+ */
+export function layout(world, width, height) {
+  const [column, row] = egoOf(world)?.cell ?? [0, 0];
+  const acrossWay = stretch(world.columns, Math.floor(width / LEAST_CELL.across), column, 0.5);
+  const alongWay = stretch(world.rows, Math.floor(height / LEAST_CELL.along), row, AHEAD);
+  const along = height / alongWay.count;
+  const across = Math.min(width / acrossWay.count, along * 1.7);
+  const x = (width - across * acrossWay.count) / 2 - acrossWay.first * across;
+  return { x, y: -alongWay.first * along, across, along, columns: acrossWay, rows: alongWay };
+}
+
+/** So many of `all`, with `at` at a share of them. @param {number} all @param {number} most @param {number} at @param {number} share */
+function stretch(all, most, at, share) {
+  const count = Math.min(all, Math.max(1, most));
+  return { first: Math.max(0, Math.min(all - count, Math.round(at - count * share))), count };
 }
 
 /** The matrix in words. @param {World} world */

@@ -5,7 +5,7 @@ import { html, nothing } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { egoOf } from "../road/world.js";
 import { createSlot } from "../ui/slot.js";
-import { endingTemplate, endOf, endsNow, goOn } from "./ending.js";
+import { createHold, endingTemplate, endOf, endsNow, goOn } from "./ending.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
@@ -19,6 +19,7 @@ const TONES = /** @type {Record<string, string>} */ ({ crash: "bad", success: "g
 /** @param {HTMLElement} host  the road @param {Page} page @param {Places} places  of the road @returns {Panel} */
 export function createVerdict(host, page, places) {
   const show = createSlot(host);
+  const hold = createHold(page);
   /** What is shown, and of what: an end keeps the words it came with. */
   let key = "";
   /** @type {Verdict | null} */ let verdict = null;
@@ -42,10 +43,11 @@ export function createVerdict(host, page, places) {
       if (next !== key) verdict = next === "" ? null : verdictOf(state);
       key = next;
       const ended = verdict !== null && state.world !== null && state.world.status !== "running" && !state.trouble;
-      if (endsNow(state, before)) page.act([{ do: "pause" }], t("clock.pause"), true);
-      host.toggleAttribute("data-ended", ended && state.past === null);
+      if (endsNow(state, before)) void hold.begin(/** @type {NonNullable<State["world"]>} */ (state.world));
+      const here = hold.follow() || state.past === null;
+      host.toggleAttribute("data-ended", ended && here);
       const paused = state.world?.paused && state.world.status === "running";
-      const more = ended && state.past === null && state.connection.phase === "live" ? endingTemplate(state, page) : nothing;
+      const more = ended && here && state.connection.phase === "live" ? endingTemplate(state, page) : nothing;
       show(html`${verdict ? over(verdict, more, page) : nothing}${paused ? html`<p class="paused">${t("verdict.paused")}</p>` : nothing}`);
     },
 

@@ -6,7 +6,7 @@ import { t } from "../core/texts.js";
 import { icon } from "../ui/icons.js";
 import { createMenu } from "../ui/menu.js";
 import { find } from "../ui/slot.js";
-import { keepViews, LAYERS, PARTS, viewsLeft } from "../ui/views.js";
+import { keepViews, LAYERS, PARTS, STRIP, viewsLeft } from "../ui/views.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Page } from "../core/page.js" */
@@ -93,7 +93,7 @@ function menuItems(page, toggle) {
   return [
     ...PARTS.map((name, at) => ({ name, label: nameOf(name), keyName: String(at + 1), checked: views[name], run: () => toggle(name) })),
     null,
-    ...LAYERS.map((name) => ({ name, label: nameOf(name), checked: views[name], run: () => toggle(name) })),
+    ...[...LAYERS, STRIP].map((name) => ({ name, label: nameOf(name), checked: views[name], run: () => toggle(name) })),
     null,
     ...[false, true].map((service) => ({
       name: service ? "drawn-there" : "drawn-here",
@@ -126,7 +126,7 @@ function viewCommands(toggle, enlarge) {
   });
   return [
     ...PARTS.map((name, at) => toggling(name, String(at + 1))),
-    ...LAYERS.map((name) => toggling(name)),
+    ...[...LAYERS, STRIP].map((name) => toggling(name)),
     ...LARGE.map((name) => ({
       name: `enlarge-${name}`,
       group,

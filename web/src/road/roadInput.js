@@ -9,7 +9,6 @@ import { servedView } from "./serverCamera.js";
 import { sceneOf } from "../core/state.js";
 import { egoOf } from "./world.js";
 import { createCursor } from "./cursor.js";
-import { createDriving } from "./driving.js";
 import { watchPointing } from "../why/pointing.js";
 import { createDragDrop } from "./dragDrop.js";
 
@@ -35,7 +34,7 @@ export function createRoadInput(host, places, log, page, card) {
   offerPlaces(surface, seen);
   watchPointing(page, card, log);
   const hands = createDragDrop(host, surface, seen, page, card);
-  return [hands, createCursor(surface, seen, page, card, hands), createDriving(host, document.getElementById("driving") ?? host, page)];
+  return [hands, createCursor(surface, seen, page, card, hands)];
 }
 
 /**

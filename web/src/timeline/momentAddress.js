@@ -22,14 +22,15 @@ export function keepAddress(store, timeTravel) {
     const place = momentInHash(location.hash);
     const { session, world } = store.state();
     if (place === null || place.session !== session || !world) return;
-    if (place.tick === null) timeTravel.live();
+    if (place.race) store.dispatch({ type: "comparison", other: { kind: "planners", ...place.race } });
+    else if (place.tick === null) timeTravel.live();
     else void timeTravel.at(place.tick);
   }
 
   /** Unless the address names another session by now. It is not a step of the browser's own way back. */
   function write() {
     const { look, session } = store.state();
-    if (session && momentInHash(location.hash)?.session === session) history.replaceState(null, "", hashOf(session, look.tick));
+    if (session && !momentInHash(location.hash)?.race && momentInHash(location.hash)?.session === session) history.replaceState(null, "", hashOf(session, look.tick));
   }
 
   store.subscribe((state, before) => {

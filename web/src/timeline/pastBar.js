@@ -48,9 +48,6 @@ function bar({ look, world }, page) {
   return html`<span class="past-where">
       <span class="past-tick">${t("past.tick", { tick: look.tick })}</span><span class="past-now">${t("past.of", { now: world?.tick ?? look.tick })}</span>
     </span>
-    <button class="past-do" type="button" data-past="play" data-playing=${String(look.playing)} aria-label=${t("past.play_here")} title=${t("past.play_here")} @click=${() => page.timeTravel.toggle()}>
-      ${icon(look.playing ? "pause" : "play")}<span class="past-label">${t(look.playing ? "past.pause" : "past.play")}</span>
-    </button>
     ${button("fork", t("past.fork"), t("past.fork_here"), run("fork"))}
     ${button("rewind", t("past.rewind"), t("past.rewind_here"), run("rewind"))}
     ${button("share", t("past.share"), t("past.share"), run("share"))}

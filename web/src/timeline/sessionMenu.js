@@ -17,11 +17,11 @@ import { forks } from "./links.js";
 
 /** What stands in the session's menu, in this order; null is a line. */
 const MENU = [
-  "share", "fork", "open-fork", "rewind", "origin", null, "save-moment", "moments", null,
+  "share", "embed", "fork", "open-fork", "rewind", "origin", null, "save-moment", "moments", null,
   "picture", "video", "recording", "open-recording", null, "quiz", "settings", null, "gallery", "sessions", "new-session",
 ];
 
-/** @typedef {{link: (url: string, what: string) => void, moments: (naming: boolean) => void, sessions: () => void}} Dialogs */
+/** @typedef {{link: (url: string, what: string) => void, embed: (snippet: string, what: string) => void, moments: (naming: boolean) => void, sessions: () => void}} Dialogs */
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createSessionMenu(host, page) {
@@ -80,6 +80,7 @@ function momentCommands(page, moments, dialogs) {
   const byHand = (/** @type {string} */ url, /** @type {string} */ what) => dialogs(({ link }) => link(url, what));
   return [
     { name: "share", group, key: "l", keyName: "L", now: ({ past }) => ({ label: past ? t("session.share_tick", past.world) : t("session.share"), run: () => moments((made) => void made.shareMoment(page, byHand)) }) },
+    { name: "embed", group, now: () => ({ label: t("embed.menu"), run: () => moments((made) => void made.embedMoment(page, (snippet, what) => dialogs(({ embed }) => embed(snippet, what)))) }) },
     { name: "fork", group, key: "f", keyName: "F", now: ({ past }) => ({ label: past ? t("session.fork_tick", past.world) : t("session.fork"), run: () => moments((made) => void made.forkHere(page)) }) },
     { name: "rewind", group, now: ({ past }) => past && { label: t("session.rewind", past.world), run: () => moments((made) => void made.rewindHere(page)) } },
   ];

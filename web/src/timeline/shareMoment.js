@@ -39,6 +39,19 @@ export function shareMoment(page, byHand) {
   });
 }
 
+/** How large the frame is, where the page that embeds it says nothing else [px]. */
+const FRAME = { width: 480, height: 560 };
+
+/** A snippet that shows the run, up to what is looked at, in a frame of another page. @param {Page} page @param {(url: string, what: string) => void} show */
+export function embedMoment(page, show) {
+  return doing(page, async (session, wanted) => {
+    const { url, carries } = await shareLink(location, session, wanted);
+    const framed = new URL(`embed${new URL(url).hash}`, location.href.replace(/[?#].*/, ""));
+    const size = `width="${FRAME.width}" height="${FRAME.height}"`;
+    show(`<iframe src="${framed.href}" ${size} style="border:0" title="Roadtalk"></iframe>`, t(carries ? "session.carries" : "session.works"));
+  });
+}
+
 /** @param {Page} page */
 export function forkHere(page) {
   return doing(page, async (session, wanted) => {

@@ -4,6 +4,7 @@
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { clock } from "../core/words.js";
+import { icon } from "../ui/icons.js";
 import { find, fitCanvas } from "../ui/slot.js";
 import { createJumps } from "./jumps.js";
 import { drawLine, HEIGHT, xOf } from "./paint/line.js";
@@ -41,7 +42,7 @@ export function createTimeline(host, page) {
   function show(shown) {
     const { timeline, world } = page.state();
     const tip = shown === null ? nothing : tipOf(shown, world?.stepS ?? 0.5, near(timeline, shown, line()));
-    render(frame(input, redraw, jumps.buttons(), tip, timeline.trouble), host);
+    render(frame(input, redraw, jumps.buttons(), tip, timeline.trouble, stripButton(page)), host);
     const box = /** @type {HTMLElement | null} */ (host.querySelector(".line-tip"));
     if (shown === null || box === null) return;
     box.style.insetInlineStart = `${Math.max(0, Math.min(width - box.offsetWidth, xOf(line(), shown) - box.offsetWidth / 2))}px`;
@@ -79,21 +80,31 @@ export function createTimeline(host, page) {
   };
 }
 
+/** What shows and hides the strip under the timeline. @param {Page} page */
+function stripButton(page) {
+  const on = page.state().views.strip;
+  const label = t(on ? "views.hide" : "views.show", { name: t("views.the.strip") });
+  return { on, label, press: () => page.arrange({ strip: !page.state().views.strip }) };
+}
+
 /**
  * @param {ReturnType<typeof sliderInput>} input
  * @param {() => void} redraw
  * @param {unknown} buttons
  * @param {unknown} tip
  * @param {string | null} trouble
+ * @param {ReturnType<typeof stripButton>} strip
  */
-function frame(input, redraw, buttons, tip, trouble) {
+function frame(input, redraw, buttons, tip, trouble, strip) {
   return html`<div class="line" role="slider" tabindex="0" aria-label=${t("timeline.label")} aria-valuemin="0" aria-valuenow="0" aria-valuemax="0"
       @pointerdown=${input.down} @pointermove=${input.move} @pointerup=${input.up} @pointercancel=${input.up} @pointerleave=${input.leave}
       @keydown=${input.key} @focus=${redraw} @blur=${redraw}>
       <canvas class="line-canvas"></canvas>
       ${tip}
     </div>
-    ${buttons} ${trouble === null ? nothing : html`<span class="line-note">${t("timeline.trouble", { reason: trouble })}</span>`}`;
+    ${buttons}
+    <button class="button icon small" type="button" data-strip aria-pressed=${String(strip.on)} aria-label=${strip.label} title=${strip.label} @click=${strip.press}>${icon("chart")}</button>
+    ${trouble === null ? nothing : html`<span class="line-note">${t("timeline.trouble", { reason: trouble })}</span>`}`;
 }
 
 /** What is near a tick where ticks are narrower than a finger. @param {Timeline} timeline @param {number} tick @param {{width: number, span: number}} line */

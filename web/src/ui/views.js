@@ -14,13 +14,16 @@ export const PARTS = ["road", "schematic", "plan", "occupancy", "metrics", "log"
 /** What can lie over the road. */
 export const LAYERS = ["path", "potholes", "forecast", "boxes"];
 
+/** What stands under the timeline: the whole run's risk, regret and clearance. */
+export const STRIP = "strip";
+
 /** A narrow screen has room for one of them. */
 const NARROW_PX = 600;
 
 /** @type {Views} */
 export const INITIAL_VIEWS = {
   road: true, schematic: !(globalThis.innerWidth < NARROW_PX), plan: true, occupancy: true, metrics: true, log: true,
-  path: true, potholes: false, forecast: false, boxes: false,
+  path: true, potholes: false, forecast: false, boxes: false, strip: false,
   service: false, // whether the service's own pictures are seen in place of the page's
 };
 

@@ -9,7 +9,8 @@ import { listText, nameText, t } from "../core/texts.js";
 
 /**
  * @typedef {{kind: "move", tick: number, move: Move}
- *   | {kind: "change", tick: number | null, actions: Action[], label: string}} Hypothesis  another move at a tick, or other actions from a tick on
+ *   | {kind: "change", tick: number | null, actions: Action[], label: string}
+ *   | {kind: "planners", tick: number | null, planners: [string, string]}} Hypothesis  another move at a tick, other actions from a tick on, or two planners
  */
 
 /**

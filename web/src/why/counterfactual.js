@@ -4,11 +4,12 @@
 import { askJson } from "../core/http.js";
 import { sessionPath } from "../core/protocol.js";
 import { t } from "../core/texts.js";
-import { moveName } from "../core/words.js";
+import { moveName, plannerName } from "../core/words.js";
 import { worldAfter, worldOf } from "../road/world.js";
 
 /** @import { Hypothesis } from "./alternatives.js" */
 /** @import { Decision, Move, WireState, TickMessage } from "../core/protocol.js" */
+/** @import { Parting } from "../core/wire.js" */
 /** @import { World } from "../road/world.js" */
 
 /** @typedef {{world: World, decision: Decision | null}} Frame  a world, and the decision that led to it */
@@ -21,6 +22,7 @@ import { worldAfter, worldOf } from "../road/world.js";
  * @property {Move | null} insteadOf  the move that was made, where another is asked about
  * @property {string} text  what differs, in a sentence or two
  * @property {number} saidSince
+ * @property {Parting | null} parting  where they first decide differently, and why
  * @property {Side} real
  * @property {Side} changed
  */
@@ -33,7 +35,7 @@ import { worldAfter, worldOf } from "../road/world.js";
  * @returns {Promise<Comparison>}
  */
 export async function fetchComparison(session, other, http) {
-  const what = other.kind === "move" ? { move: other.move } : { actions: other.actions };
+  const what = other.kind === "move" ? { move: other.move } : other.kind === "change" ? { actions: other.actions } : { planners: other.planners };
   const body = other.tick === null ? what : { ...what, at_tick: other.tick };
   const told = await askJson(`${sessionPath(session)}/counterfactual`, { method: "POST", body, http });
   return {
@@ -41,6 +43,7 @@ export async function fetchComparison(session, other, http) {
     insteadOf: told.instead_of,
     text: told.text,
     saidSince: told.said_since,
+    parting: told.parting ?? null,
     real: { frames: framesOf(told.real), end: told.real.end },
     changed: { frames: framesOf(told.changed), end: told.changed.end },
   };
@@ -68,13 +71,20 @@ function framesOf({ state, ticks }) {
  */
 export function titleOf(other, tick = null) {
   if (other.kind === "change") return other.label;
+  if (other.kind === "planners") return tick === null ? t("planner_race.title") : t("planner_race.title_at", { tick });
   const move = moveName(other.move);
   return tick === null ? t("counterfactual.instead", { move }) : t("counterfactual.instead_at", { move, tick });
 }
 
 /** The short name of the other run. @param {Hypothesis} other */
 export function nameOfOther(other) {
+  if (other.kind === "planners") return plannerName(other.planners[1]);
   return other.kind === "change" ? t("counterfactual.changed") : t("counterfactual.move", { move: moveName(other.move) });
+}
+
+/** The short name of the first run. @param {Hypothesis | null} other */
+export function nameOfReal(other) {
+  return other?.kind === "planners" ? plannerName(other.planners[0]) : t("counterfactual.real");
 }
 
 /**

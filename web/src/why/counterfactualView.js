@@ -16,7 +16,8 @@ import { MOVES } from "../core/words.js";
 import { createRoad } from "../road/road.js";
 import { icon } from "../ui/icons.js";
 import { find } from "../ui/slot.js";
-import { fetchComparison, nameOfOther, partOf, titleOf } from "./counterfactual.js";
+import { fetchComparison, nameOfOther, nameOfReal, partOf, titleOf } from "./counterfactual.js";
+import { partingTemplate, plannerChoice, raceAddress, speedChoice } from "./plannerRace.js";
 
 /** @import { Comparison, Frame } from "./counterfactual.js" */
 /** @import { Page } from "../core/page.js" */
@@ -46,6 +47,7 @@ class CounterfactualView {
   /** Why they have not, in words. */ trouble = "";
   /** How many ticks after the first are shown. */ at = 0;
   playing = false;
+  /** How many times as fast as the road's own clock it plays. */ speed = 1;
   #timer = 0;
   #asking = newestOnly();
   /** Where the focus was before. @type {Element | null} */ #from = null;
@@ -81,6 +83,7 @@ class CounterfactualView {
     clearTimeout(this.#timer);
     Object.assign(this, { other, found: null, trouble: "", at: 0, playing: false });
     this.#reveal(true);
+    raceAddress(session, other);
     this.show();
     find(this.host, ".beside-head .button").focus();
     try {
@@ -105,15 +108,18 @@ class CounterfactualView {
   }
 
   show() {
-    const { other, found, trouble, at, last, playing } = this;
+    const { other, found, trouble, at, last, playing, speed } = this;
     this.host.classList.toggle("waiting", found === null && trouble === "");
     this.host.toggleAttribute("data-trouble", trouble !== "");
     const hands = {
       leave: () => this.leave(),
       toggle: () => this.run(!this.playing),
       slide: (/** @type {{target: HTMLInputElement}} */ { target }) => this.step(Number(target.value) - this.at),
+      speed: (/** @type {number} */ value) => void (this.speed = value),
+      part: () => this.step((found ? (partOf(found)?.at ?? 1) : 1) - 1 - this.at),
+      choose: (/** @type {Hypothesis} */ wanted) => this.page.pick(wanted),
     };
-    render(template({ other, found, trouble, at, last, playing }, hands), this.host);
+    render(template({ other, found, trouble, at, last, playing, speed }, hands), this.host);
   }
 
   /** Show a tick of both; a run that has ended stays at its end. @param {number} index */
@@ -146,7 +152,7 @@ class CounterfactualView {
   }
 
   #stepMs() {
-    return (this.found?.real.frames[0].world.stepS ?? 0.5) * 1000;
+    return ((this.found?.real.frames[0].world.stepS ?? 0.5) * 1000) / this.speed;
   }
 
   /** @param {number} by */
@@ -178,6 +184,7 @@ class CounterfactualView {
     this.run(false);
     this.found = null;
     this.#reveal(false);
+    raceAddress(this.page.state().session, null);
     const from = this.#from;
     if (focused && from instanceof HTMLElement && from.isConnected) from.focus({ preventScroll: true });
   }
@@ -185,6 +192,7 @@ class CounterfactualView {
   /** @param {KeyboardEvent} event */
   #onKey(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.target instanceof HTMLSelectElement && event.key !== "Escape") return;
     const onButton = event.target instanceof HTMLButtonElement;
     if (event.key === "Escape") this.leave();
     else if (event.key === " " && !onButton) this.run(!this.playing);
@@ -203,13 +211,23 @@ function frameAt(frames, at) {
   return frames[Math.min(at, frames.length - 1)];
 }
 
-/** @typedef {{other: Hypothesis | null, found: Comparison | null, trouble: string, at: number, last: number, playing: boolean}} Shown */
-/** @typedef {{leave: () => void, toggle: () => void, slide: (event: {target: HTMLInputElement}) => void}} Hands */
+/** @typedef {{other: Hypothesis | null, found: Comparison | null, trouble: string, at: number, last: number, playing: boolean, speed: number}} Shown */
+/**
+ * @typedef {object} Hands
+ * @property {() => void} leave
+ * @property {() => void} toggle
+ * @property {(event: {target: HTMLInputElement}) => void} slide
+ * @property {(value: number) => void} speed
+ * @property {() => void} part  go where the two part
+ * @property {(wanted: Hypothesis) => void} choose  compare something else
+ */
 
 /** @param {Shown} shown @param {Hands} hands */
 function template(shown, hands) {
   const { other, found, trouble } = shown;
-  const summary = trouble || (found ? found.text : t("counterfactual.waiting"));
+  // Of two planners each reason is told where they part, and each end at its side.
+  const told = other?.kind === "planners" ? "" : (found?.text ?? "");
+  const summary = trouble || (found ? told : t("counterfactual.waiting"));
   return html`<header class="beside-head">
       <div class="beside-words">
         <h2 class="beside-title" id="beside-title">${other ? titleOf(other, found?.tick) : ""}</h2>
@@ -217,31 +235,32 @@ function template(shown, hands) {
       </div>
       <button class="button quiet icon" type="button" aria-label=${t("counterfactual.close")} title="${t("page.close")}  Esc" @click=${hands.leave}>${icon("close")}</button>
     </header>
-    <div class="beside-sides">${SIDES.map((key) => side(key, shown))}</div>
+    ${found ? partingTemplate(found, other, hands.part) : nothing}
+    <div class="beside-sides">${SIDES.map((key) => side(key, shown, hands))}</div>
     ${controls(shown, hands)}`;
 }
 
 /** How each of the two ends. @param {Comparison} found @param {Hypothesis | null} other */
 function endsText({ real, changed }, other) {
-  return `${other ? nameOfOther(other) : ""}: ${changed.end.text}. ${t("counterfactual.real")}: ${real.end.text}.`;
+  return `${other ? nameOfOther(other) : ""}: ${changed.end.text}. ${nameOfReal(other)}: ${real.end.text}.`;
 }
 
-/** @param {typeof SIDES[number]} key @param {Shown} shown */
-function side(key, { other, found, at }) {
-  const name = key === "changed" && other && found ? nameOfOther(other) : t("counterfactual.real");
+/** @param {typeof SIDES[number]} key @param {Shown} shown @param {Hands} hands */
+function side(key, { other, found, at }, { choose }) {
+  const name = key === "changed" && other && found ? nameOfOther(other) : nameOfReal(other);
   const { frames, end } = found?.[key] ?? { frames: [], end: null };
   const frame = found && frameAt(frames, at);
   const verdict = frame && at >= frames.length - 1 ? VERDICTS[frame.world.status] : undefined;
   const move = frame?.decision && MOVES[frame.decision.move];
   return html`<figure class="beside-side" data-side=${key}>
-    <figcaption><span class="beside-name">${name}</span><span class="beside-end" data-tone=${TONES[end?.outcome ?? ""] ?? ""}>${end?.text ?? ""}</span></figcaption>
+    <figcaption><span class="beside-name">${other?.kind === "planners" ? plannerChoice(other, key, choose) : name}</span><span class="beside-end" data-tone=${TONES[end?.outcome ?? ""] ?? ""}>${end?.text ?? ""}</span></figcaption>
     <div class="beside-road"><p class="beside-verdict" data-tone=${TONES[frame?.world.status ?? ""] ?? ""} ?hidden=${verdict === undefined}>${verdict ?? ""}</p></div>
     <p class="beside-move">${move ? `${move.arrow} ${capital(move.name)}` : ""}</p>
   </figure>`;
 }
 
 /** @param {Shown} shown @param {Hands} hands */
-function controls({ found, at, last, playing }, { toggle, slide }) {
+function controls({ found, at, last, playing, speed: pace }, { toggle, slide, speed }) {
   const part = found && partOf(found);
   const tick = t("counterfactual.tick", { tick: (found?.tick ?? 0) + at });
   return html`<div class="beside-controls">
@@ -252,6 +271,7 @@ function controls({ found, at, last, playing }, { toggle, slide }) {
       <span class="beside-parting" aria-hidden="true" ?hidden=${!part || last === 0} .style=${part && last > 0 ? `inset-inline-start: ${((part.at - 1) / last) * 100}%` : ""}></span>
       <input class="beside-slider" type="range" min="0" step="1" max=${last} aria-label=${t("counterfactual.slider")} aria-valuetext=${tick} .value=${String(at)} @input=${slide} />
     </div>
+    ${speedChoice(pace, speed)}
     <output class="beside-tick">${found ? tick : ""}</output>
   </div>`;
 }

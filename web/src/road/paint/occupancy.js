@@ -1,30 +1,31 @@
 // @ts-check
-/** The matrix: a figure for each cell, and a box around the vehicle's; where figures would be too small, squares. */
+/** The matrix: a figure for each cell, and a box around the vehicle's. */
 
 import { box } from "./shapes.js";
 
 /** @import { Palette } from "../../core/theme.js" */
 /** @import { World } from "../world.js" */
 
-/** Smaller figures than this cannot be read [px]. */
-const LEAST_FIGURE = 9;
+/** @typedef {{first: number, count: number}} Stretch */
+
 const MONO = 'ui-monospace, "Liberation Mono", monospace';
 
 /**
  * @param {CanvasRenderingContext2D} pen  in CSS pixels
  * @param {World} world
- * @param {{x: number, y: number, across: number, along: number}} layout
+ * @param {{x: number, y: number, across: number, along: number, columns?: Stretch, rows?: Stretch}} layout  with the stretch that is shown
  * @param {Palette} palette
  */
-export function drawOccupancy(pen, { columns, rows, things }, { x, y, across, along }, palette) {
+export function drawOccupancy(pen, { columns, rows, things }, layout, palette) {
+  const { x, y, across, along, columns: seen = { first: 0, count: columns }, rows: long = { first: 0, count: rows } } = layout;
   /** @type {Map<number, string>} */
   const kinds = new Map();
   for (const { kind, cell: [column, row] } of things.values()) {
     const at = row * columns + column;
+    if (column < seen.first || column >= seen.first + seen.count || row < long.first || row >= long.first + long.count) continue;
     if (kind === "av" || kinds.get(at) !== "av") kinds.set(at, kind);
   }
   const size = Math.min(along * 0.98, across * 1.3, 18);
-  if (size < LEAST_FIGURE) return drawSquares(pen, kinds, { columns, rows }, { x, y, across, along }, palette);
   pen.textAlign = "center";
   pen.textBaseline = "middle";
   /** @param {number} at */
@@ -32,10 +33,13 @@ export function drawOccupancy(pen, { columns, rows, things }, { x, y, across, al
   pen.font = `400 ${size}px ${MONO}`;
   pen.fillStyle = palette.faint;
   pen.globalAlpha = 0.55;
-  for (let at = 0; at < rows * columns; at++) {
-    if (kinds.has(at)) continue;
-    const [left, top] = centre(at);
-    pen.fillText("0", left, top + size * 0.06);
+  for (let row = long.first; row < long.first + long.count; row++) {
+    for (let column = seen.first; column < seen.first + seen.count; column++) {
+      const at = row * columns + column;
+      if (kinds.has(at)) continue;
+      const [left, top] = centre(at);
+      pen.fillText("0", left, top + size * 0.06);
+    }
   }
   pen.font = `700 ${size}px ${MONO}`;
   for (const [at, kind] of kinds) {
@@ -48,22 +52,5 @@ export function drawOccupancy(pen, { columns, rows, things }, { x, y, across, al
     pen.globalAlpha = 1;
     if (kind === "av") pen.fillStyle = palette.surface;
     pen.fillText("1", left, top + size * 0.06);
-  }
-}
-
-/**
- * The same without figures: a square for each cell, in the colour of what takes it.
- * @param {CanvasRenderingContext2D} pen
- * @param {Map<number, string>} kinds  of what stands there, by cell
- * @param {{columns: number, rows: number}} road
- * @param {{x: number, y: number, across: number, along: number}} layout
- * @param {Palette} palette
- */
-function drawSquares(pen, kinds, { columns, rows }, { x, y, across, along }, palette) {
-  const gap = Math.min(1, along / 6, across / 6);
-  for (let at = 0; at < rows * columns; at++) {
-    const kind = kinds.get(at);
-    pen.fillStyle = kind === undefined ? palette.cell : (palette.kinds[kind] ?? palette.danger);
-    pen.fillRect(x + (at % columns) * across, y + Math.floor(at / columns) * along, across - gap, along - gap);
   }
 }

@@ -1,0 +1,249 @@
+"""One decision by cost in compiled words: what every move costs in all, from what one vehicle sees.
+
+Structure: as `sim.batch.backward_dp`, whose sweep it uses; but where that stops at the cheapest move, here
+the horizon grows until the cost of every move is proved. A way of more ticks than were swept costs at least a
+tick for each, so a total that is no more than that is exact, and any other one tells how far the sweep must
+go. A move whose cells all run out leads nowhere, which the sets of cells show.
+Guarantee: the totals of `sim.search.backward_dp.totals_by_move` and the move of
+`sim.search.reachability.longest_lasting`, for what
+`sim.batch.percept_words.is_compiled_for` accepts.
+
+Array arguments, besides those of `sim.batch.backward_dp`: `seen` (7, words; uint64) holds the boards of the
+percept in the order of `NOW_RIGHT`, without the vehicle.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from sim.batch.backward_dp import BUFFER, FAR, TICK, around, cost_of_way, sweep, totals_of_way
+from sim.batch.compiled import free_steps, max_ticks
+from sim.batch.reachability import (
+    ALL_FIXED,
+    BLOCKED,
+    BOARDS,
+    CAME_LEFT,
+    CAME_RIGHT,
+    CUT_LEFT,
+    CUT_RIGHT,
+    FIELDS,
+    REACHED,
+    STAY,
+    VEHICLE,
+    expand,
+    keep_shortest,
+    longest_survival,
+    one_row_on,
+    roll,
+    search,
+    someone_brakes,
+)
+from sim.compilation import compiled
+
+_ZERO: Final = np.uint64(0)
+_ONE: Final = np.uint64(1)
+
+
+@compiled
+def _take(now, seen, cell, columns):
+    """Begin a roll-out at what is seen."""
+    rows_per_word = 64 // columns
+    now[:VEHICLE] = seen
+    now[VEHICLE] = _ZERO
+    row = cell // columns
+    now[VEHICLE, row // rows_per_word] = _ONE << np.uint64(row % rows_per_word * columns + cell % columns)
+
+
+@compiled
+def _first_step(now, layers, move, last, columns, left_edge, right_edge):
+    """Put where a move leads now into layer 1; whether it meets nothing."""
+    vehicle = now[VEHICLE]
+    alive = _ZERO
+    for w in range(last + 1):
+        steps = free_steps(
+            vehicle[w],
+            one_row_on(vehicle, w, last, columns),
+            layers[0, BLOCKED, w],
+            layers[0, CAME_RIGHT, w],
+            layers[0, CAME_LEFT, w],
+            layers[0, CUT_LEFT, w],
+            layers[0, CUT_RIGHT, w],
+            left_edge,
+            right_edge,
+        )
+        there = (
+            steps.forward,
+            steps.left,
+            steps.right,
+            steps.forward_left,
+            steps.forward_right,
+            steps.stay,
+        )[move]
+        layers[1, REACHED, w] = there
+        alive |= there
+    return alive != _ZERO
+
+
+@compiled
+def _arrives(now, layers, move, rolled, limit, last, episode_tick, columns, left_edge, right_edge, swept):
+    """Ticks of the quickest way that begins with a move (−1: none), and the layers rolled by then."""
+    goal = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
+    if not _first_step(now, layers, move, last, columns, left_edge, right_edge):
+        return -1, rolled
+    if layers[1, REACHED, 0] & goal:
+        return 1, rolled
+    for ahead in range(1, limit):
+        if ahead >= rolled:
+            roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, False)
+            rolled = ahead + 1
+        if not expand(layers, ahead, 0, last, columns, left_edge, right_edge):
+            return -1, rolled
+        if layers[ahead + 1, REACHED, 0] & goal:
+            return ahead + 1, rolled
+    return -1, rolled
+
+
+@compiled
+def _every_total(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept, stay_only):
+    """Write the totals of the moves now, each of them proved; `ticks`: those of a quickest way.
+
+    With `stay_only` that of staying alone is asked for. `scratch`, `size`: as in `sim.batch.backward_dp`.
+    """
+    now, layers, near = scratch[0], scratch[1], scratch[2]
+    totals = scratch[5]
+    columns, left_edge, right_edge = size
+    keep_shortest(layers, ticks, cell // columns, last, columns, left_edge, right_edge)
+    around(now[ALL_FIXED], near[0], last, columns, left_edge, right_edge)
+    bound = cost_of_way(layers, near, ticks, cell, last, weights, columns, left_edge, right_edge)
+    horizon = min(bound // weights[TICK], limit)
+    hopeless = np.zeros(6, np.bool_)
+    while True:
+        for ahead in range(rolled, horizon):
+            roll(now, layers, ahead, last, episode_tick, columns, left_edge, right_edge, swept, False)
+        rolled = max(rolled, horizon)
+        sweep(scratch, horizon, cell, last, weights, size)
+        if stay_only or horizon >= limit:
+            return
+        needed = horizon
+        for move in range(6):
+            if hopeless[move]:
+                continue
+            total = np.int64(totals[move])
+            if total >= FAR:
+                quickest, rolled = _arrives(
+                    now,
+                    layers,
+                    move,
+                    rolled,
+                    limit,
+                    last,
+                    episode_tick,
+                    columns,
+                    left_edge,
+                    right_edge,
+                    swept,
+                )
+                if quickest < 0:
+                    hopeless[move] = True
+                else:
+                    needed = max(needed, quickest)
+            elif total > (horizon + 1) * weights[TICK]:
+                needed = max(needed, total // weights[TICK])
+        if needed <= horizon:
+            return
+        horizon = min(needed, limit)
+
+
+@compiled
+def made_moves(
+    seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, moves
+):
+    """Write the move that is made where each of these is seen (`seen`: ways to see, 7, words).
+
+    Each is weighed by its own row of `weights`.
+    """
+    words = seen.shape[2]
+    now = np.empty((BOARDS, words), np.uint64)
+    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
+    near = np.empty((2 + weights[:, BUFFER].max(), words), np.uint64)
+    value = np.full((rows, columns + 2), FAR, np.int32)
+    entering = np.full((rows, columns + 2), FAR, np.int32)
+    totals = np.full(6, FAR, np.int32)
+    scratch = now, layers, near, value, entering, totals
+    size = columns, left_edge, right_edge
+    row = cell // columns
+    for number in range(seen.shape[0]):
+        least, move, lasted = FAR, np.intp(STAY), 0
+        for stands in (False, True):
+            if stands and not someone_brakes(now, layers, last):
+                break
+            _take(now, seen[number], cell, columns)
+            ticks, rolled, kept_clear = search(
+                now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
+            )
+            if ticks >= 0:
+                totals_of_way(
+                    scratch,
+                    ticks,
+                    rolled,
+                    cell,
+                    last,
+                    weights[number],
+                    episode_tick,
+                    limit,
+                    size,
+                    swept,
+                )
+                if stands:
+                    totals[:STAY] = FAR
+                if totals.min() < least:
+                    move = np.argmin(totals)
+                    least = totals[move]
+            elif least == FAR and not stands:
+                move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
+            elif least == FAR and kept_clear > lasted:
+                move = np.intp(STAY)
+        moves[number] = move
+
+
+@compiled
+def decided_totals(
+    seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, out
+):
+    """Write what each move costs in all (−1: no way); returns the move after which one lasts longest.
+
+    Returns −1 where a way leads to the goal.
+    """
+    words = seen.shape[1]
+    now = np.empty((BOARDS, words), np.uint64)
+    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
+    near = np.empty((2 + weights[BUFFER], words), np.uint64)
+    value = np.full((rows, columns + 2), FAR, np.int32)
+    entering = np.full((rows, columns + 2), FAR, np.int32)
+    totals = np.full(6, FAR, np.int32)
+    scratch = now, layers, near, value, entering, totals
+    size = columns, left_edge, right_edge
+    row = cell // columns
+    out[:] = -1
+    found, lasting, lasted = False, np.intp(STAY), 0
+    for stands in (False, True):
+        if stands and not someone_brakes(now, layers, last):
+            break
+        _take(now, seen, cell, columns)
+        ticks, rolled, kept_clear = search(
+            now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
+        )
+        if ticks >= 0:
+            found = True
+            _every_total(
+                scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept, stands
+            )
+            for move in range(STAY if stands else 0, 6):
+                out[move] = totals[move] if totals[move] < FAR else -1
+        elif not stands:
+            lasting, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
+        elif kept_clear > lasted:
+            lasting = np.intp(STAY)
+    return np.intp(-1) if found else lasting

@@ -1,0 +1,150 @@
+"""What a vehicle sees as compiled words, and the decisions by cost that are taken of it (`one_decision`)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import Final
+
+import numpy as np
+
+from sim.batch.layout import Layout
+from sim.batch.one_decision import decided_totals, made_moves
+from sim.batch.reachability import VEHICLE
+from sim.compiled_files import ready_mark
+from sim.forecast import Forecast
+from sim.perceive import Percept
+from sim.rules.behaviour import DEFAULT_BEHAVIOUR
+from sim.rules.dynamics import DEFAULT_DYNAMICS
+from sim.search.compiled_costs import COMPILED, Unlike
+from sim.search.costs import Weights
+from sim.types import MARKED, MOVES, Kind, Move
+
+_ONE: Final = np.uint64(1)
+_ALL: Final = np.uint64(2**64 - 1)
+WORD_BITS: Final = 64
+MOST_COLUMNS: Final = WORD_BITS
+"""Columns of the widest road that fits into words."""
+_WALKERS: Final = MARKED.index(Kind.PEDESTRIAN)
+
+
+def make_ready() -> None:
+    """Compile this, or load what was compiled before."""
+    seen = np.zeros((VEHICLE, 1), np.uint64)
+    charges, out = np.array((60, 12, 9, 4, 2, 24, 1), np.int64), np.empty(6, np.int64)
+    place = (1, 1, 2, _ONE, _ONE, 0, 2, _ALL, 0)
+    decided_totals(seen, *place, charges, out)
+    made_moves(seen[None], *place, charges[None], np.empty(1, np.uint8))
+    mark = ready_mark(COMPILED)
+    if mark is not None:
+        with suppress(OSError):
+            mark.touch()
+
+
+def totals_where_compiled(
+    forecast: Forecast, weights: Weights, limit: int
+) -> tuple[tuple[int | None, ...], int | None] | None:
+    """`totals_of` of what `is_compiled_for`, else None."""
+    return totals_of(forecast, weights, limit) if is_compiled_for(forecast.percept, weights, limit) else None
+
+
+def is_compiled_for(percept: Percept, weights: Weights, limit: int) -> bool:
+    """Whether a decision of what is seen can be taken here: by the motion, the movers and the charges."""
+    return (
+        not percept.egos
+        and percept.behaviour == DEFAULT_BEHAVIOUR
+        and percept.dynamics == DEFAULT_DYNAMICS
+        and limit > 1
+        and percept.road.columns <= MOST_COLUMNS
+        and not (weights.doubt and any(percept.doubtful))
+        and percept.boards.others == percept.boards.marked[_WALKERS]
+    )
+
+
+def totals_of(forecast: Forecast, weights: Weights, limit: int) -> tuple[tuple[int | None, ...], int | None]:
+    """What each move costs in all (None: no way), and the move after which one lasts longest where none has.
+
+    `limit`: steps that are left, in ticks. Precondition: `is_compiled_for`.
+    """
+    percept = forecast.percept
+    last = _last_word(percept, weights.buffer)
+    seen = np.frombuffer(bytearray(_words(percept, Unlike(), last)), np.uint64).reshape(VEHICLE, last + 1)
+    out = np.empty(6, np.int64)
+    lasting = decided_totals(seen, *_place(percept, limit), last, np.array(_row(weights), np.int64), out)
+    totals = tuple([None if total < 0 else total for total in out.tolist()])
+    return totals, None if lasting < 0 else int(lasting)
+
+
+def moves_of(
+    percept: Percept, unlike: Sequence[Unlike], weights: Sequence[Weights], limit: int
+) -> list[Move]:
+    """The move that is made where each of these things is seen otherwise, by the charges beside it.
+
+    Precondition: `is_compiled_for` with each of the charges, and no ways to see less than one.
+    """
+    last = _last_word(percept, max(each.buffer for each in weights))
+    words = b"".join([_words(percept, each, last) for each in unlike])
+    seen = np.frombuffer(bytearray(words), np.uint64).reshape(len(unlike), VEHICLE, last + 1)
+    moves = np.empty(len(unlike), np.uint8)
+    charges = np.array([_row(each) for each in weights], np.int64)
+    made_moves(seen, *_place(percept, limit), last, charges, moves)
+    return [MOVES[move] for move in moves.tolist()]
+
+
+def _last_word(percept: Percept, buffer: int) -> int:
+    """The last word of what matters: that of the row as far behind the ego as movers are kept clear of."""
+    road = percept.road
+    row = min(percept.ego // road.columns + max(1, buffer), road.rows - 1)
+    return row // Layout.of(road.columns, road.rows).rows_per_word
+
+
+def _words(percept: Percept, unlike: Unlike, last: int) -> bytes:
+    """What is seen, in the order of `NOW_RIGHT` without the vehicle: the words up to the last."""
+    road, boards = percept.road, percept.boards
+    size = Layout.of(road.columns, road.rows).rows_per_word * road.columns
+    stay, rest = ~unlike.movers, ~unlike.fixed
+    right, left = percept.right & stay, percept.left & stay
+    held = boards.holding & rest | unlike.potholes
+    seen = (
+        right,
+        left,
+        boards.marked[_WALKERS] & stay,
+        boards.fixed & rest | unlike.barriers | unlike.potholes,
+        (right | left) & held,
+        percept.yielding & stay,
+        percept.attentive & stay,
+    )
+    if size == WORD_BITS:
+        length, near = 8 * (last + 1), (1 << WORD_BITS * (last + 1)) - 1
+        return b"".join([(board & near).to_bytes(length, "little") for board in seen])
+    words, mask = range(last + 1), (1 << size) - 1
+    return b"".join([(board >> word * size & mask).to_bytes(8, "little") for board in seen for word in words])
+
+
+def _place(percept: Percept, limit: int) -> tuple[object, ...]:
+    """Where and when it is decided, as the kernels want it."""
+    road = percept.road
+    layout = Layout.of(road.columns, road.rows)
+    return (
+        percept.ego,
+        road.columns,
+        road.rows,
+        np.uint64(layout.left_edge),
+        np.uint64(layout.right_edge),
+        percept.episode_tick,
+        limit,
+        _ALL if percept.swept else np.uint64(0),
+    )
+
+
+def _row(weights: Weights) -> tuple[int, ...]:
+    """The charges, in the order of `TICK`."""
+    return (
+        weights.tick,
+        weights.sideways,
+        weights.diagonal,
+        weights.stay,
+        weights.fixed,
+        weights.mover,
+        weights.buffer,
+    )

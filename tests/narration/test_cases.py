@@ -1,0 +1,83 @@
+"""Cases in words: what happens, on what little road, and what would have saved it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from service.evaluations.cases import case_link, explain_cases
+from service.narration import falsification_words
+from sim.config import Config
+from sim.evaluate.executor import CancelledError
+from sim.falsify import Case, Falsification
+from sim.falsify.search import falsify
+from tests.support.broken_planner import registered
+
+CONFIG = Config(columns=6, rows=14)
+
+
+def search(planner: str, config: Config = CONFIG) -> tuple[Falsification, dict[str, Any]]:
+    spec = Falsification(planner=planner, worlds=60, config=config, seed=3)
+    found = falsify(spec)
+    assert found is not None
+    return spec, found
+
+
+def test_a_stuck_case_says_how_it_is_stuck_and_what_is_needed() -> None:
+    spec, found = search("priority")
+    explain_cases(found, "en", lambda: False)
+    why = found["cases"][0]["case"]["why"]
+    assert why.startswith("Priority rules: Stuck")
+    assert "without any one of them it arrives" in why or "without it, it arrives" in why
+    assert f"a way of {found['cases'][0]['least']} ticks" in why
+    told = falsification_words("en").paragraphs(spec, found)
+    assert told[0].startswith("Priority rules failed in")
+    assert "Drawn at random" in told[0]
+    assert told[1] == f"1. {why}"
+
+
+def test_a_crash_says_what_was_hit_whose_fault_it_was_and_what_would_have_saved_it() -> None:
+    _, found = search(registered())
+    explain_cases(found, "en", lambda: False)
+    crash = next(each for each in found["cases"] if each["outcome"] == "crash")
+    why = crash["case"]["why"]
+    assert "went forward" in why or "drove" in why or "moved" in why, why
+    assert "nobody moves into another" in why
+    assert "A*" in why.rpartition("Planners that arrive here: ")[2]
+
+
+@pytest.mark.parametrize("planner", ["priority", "broken"])
+def test_german_says_the_same_without_a_word_of_english(planner: str) -> None:
+    spec, found = search(registered() if planner == "broken" else planner)
+    explain_cases(found, "de", lambda: False)
+    for each in found["cases"]:
+        assert "befahrbar" in each["case"]["why"]
+        assert " the " not in each["case"]["why"]
+    assert "obwohl sie befahrbar sind" in falsification_words("de").paragraphs(spec, found)[0]
+
+
+def test_a_planner_that_never_fails_is_told_with_its_hardest_world() -> None:
+    spec, found = search("bfs", CONFIG.with_parts(attentive=0.0))  # nobody reacts, so its forecast holds
+    told = falsification_words("en").paragraphs(spec, found)
+    assert told[0].startswith("Quickest failed in none of 60 worlds")
+    assert told[1].startswith("The hardest world it arrived in is drawn from seed")
+
+
+def test_a_case_whose_road_is_drawn_otherwise_has_no_link() -> None:
+    _, found = search("priority")
+    case = Case.from_json(found["cases"][0]["case"])
+    assert case_link(case, case.tick) is not None
+    other = case.config.with_parts(seed=case.config.seed + 1)
+    assert (
+        case_link(
+            Case.from_json({**case.to_json(), "config": {**case.to_json()["config"], "seed": other.seed}}), 0
+        )
+        is None
+    )
+
+
+def test_a_cancel_ends_the_telling() -> None:
+    _, found = search("priority")
+    with pytest.raises(CancelledError):
+        explain_cases(found, "en", lambda: True)

@@ -1,0 +1,72 @@
+"""Two planners compared: where they part, what each makes of the other's move, and what it led to."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from service.actions import Ask
+from service.narration.planners import Planners
+from service.narration.sayings import Sayings
+from service.sessions.facts import Asked
+from sim.config import Config
+from sim.explain.planners import planners_here
+from sim.session.timeline import Timeline
+from sim.state import SimState
+from sim.transition import step
+from sim.types import Outcome
+
+PAIRS = [("rules", "astar"), ("priority", "rules"), ("astar", "bfs"), ("dijkstra", "astar")]
+
+
+def compared(timeline: Timeline, other: Any) -> dict[str, Any]:
+    ask = Ask(about="planners", what="compare", planners=(other,))
+    return Planners(Sayings.load()).answer(Asked(ask, timeline))
+
+
+def first_difference(timeline: Timeline, other: str) -> int | None:
+    """By driving both beside each other."""
+    one = timeline.state
+    two = SimState.start(one.config.with_parts(planner=other), one.world)
+    while one.world.outcome is two.world.outcome is Outcome.RUNNING:
+        a, b = step(one), step(two)
+        assert a.decision is not None
+        assert b.decision is not None
+        if a.decision.move is not b.decision.move:
+            return one.world.tick
+        one, two = a.state, b.state
+    return None
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids="-".join)
+@pytest.mark.parametrize("seed", range(3))
+def test_the_first_tick_they_differ_with_both_verdicts(pair: tuple[str, str], seed: int) -> None:
+    own, other = pair
+    timeline = Timeline(Config(planner=own, seed=seed, rows=16))
+    found = compared(timeline, other)
+    tick = first_difference(timeline, other)
+    if tick is None:
+        assert found["parting"] is None
+        assert "part at tick" not in found["text"]
+        return
+    parting = found["parting"]
+    assert parting["at_tick"] == tick
+    assert (parting["own"]["planner"], parting["other"]["planner"]) == pair
+    assert parting["own"]["move"] is not parting["other"]["move"]
+    assert f"They part at tick {tick}: " in found["text"]
+    for one, another in (("own", "other"), ("other", "own")):
+        texts = {each["move"]: each["text"] for each in parting[one]["options"]}
+        assert texts[parting[another]["move"]] in found["text"]
+
+
+def test_one_that_drives_alike_never_parts() -> None:
+    timeline = Timeline(Config(planner="astar", seed=1, rows=6, vehicles=0, potholes=0))
+    found = planners_here(timeline, ["dijkstra"])
+    assert found.decided(found.others[0]) is None
+
+
+def test_with_several_others_none_is_singled_out() -> None:
+    ask = Ask(about="planners", what="compare")
+    found = Planners(Sayings.load()).answer(Asked(ask, Timeline(Config(rows=10))))
+    assert found["parting"] is None
