@@ -8,6 +8,7 @@ from typing import Final
 from service.narration.evaluation import EvaluationWords
 from service.narration.falsification import FalsificationWords
 from service.narration.goals import Goals
+from service.narration.job_standing import JobStanding
 from service.narration.placing import how_many_now, place_of
 from service.narration.rearranged import told_rearranged
 from service.narration.rules import Rules
@@ -75,6 +76,7 @@ class Replies:
         self._sayings = sayings
         self._evaluations = EvaluationWords(sayings)
         self._falsifications = FalsificationWords(sayings)
+        self._standing = JobStanding(sayings)
         self._goals = Goals(sayings, self._scenario, self.done)
         self._rules = Rules(sayings)
 
@@ -138,7 +140,7 @@ class Replies:
                     return self._evaluations.started(asked, job)
                 return self._falsifications.started(asked, job)
             case JobTold():
-                return self._evaluations.standing(fact)
+                return self._standing.told(fact)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():
