@@ -10,6 +10,7 @@ from typing import Any, Final
 from service.narration.conditions import Conditions
 from service.narration.inflection import capital
 from service.narration.sayings import Sayings
+from service.sessions.facts import JobTold
 from sim.config import Config
 from sim.evaluate.closeness import TTC_S
 from sim.evaluate.spec import Evaluation
@@ -60,6 +61,27 @@ class EvaluationWords:
         """A line for the log of the session that asked for it."""
         told = " ".join(self._arrived(planner, summary) for planner in spec.planners)
         return self._say("done", told=told, link=REPORT.format(id=job_id))
+
+    def standing(self, fact: JobTold) -> str:
+        """The reply to "how is the evaluation going?" and "cancel the evaluation"."""
+        if not fact.known:
+            return self._say("standing", f"{fact.want}_asked")
+        job = fact.job
+        if job is None or (fact.want == "cancel" and not fact.cancelled):
+            return self._say("standing", "none" if job is None else "none_running")
+        spec = Evaluation.from_json(job.spec)
+        if job.result is not None:
+            return self.ended(spec, job.result, job.id)
+        state = "cancelled_now" if fact.cancelled else job.state
+        return self._say(
+            "standing",
+            state,
+            title=self.title(spec),
+            done=self._whole(job.done),
+            total=self._whole(job.total),
+            percent=self.percent(min(0.999, job.done / max(1, job.total))),
+            error=job.error or "",
+        )
 
     def title(self, spec: Evaluation) -> str:
         """The heading of a report."""

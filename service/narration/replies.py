@@ -8,7 +8,6 @@ from typing import Final
 from service.narration.evaluation import EvaluationWords
 from service.narration.falsification import FalsificationWords
 from service.narration.goals import Goals
-from service.narration.job_standing import JobStanding
 from service.narration.placing import how_many_now, place_of
 from service.narration.rearranged import told_rearranged
 from service.narration.rules import Rules
@@ -76,7 +75,6 @@ class Replies:
         self._sayings = sayings
         self._evaluations = EvaluationWords(sayings)
         self._falsifications = FalsificationWords(sayings)
-        self._standing = JobStanding(sayings)
         self._goals = Goals(sayings, self._scenario, self.done)
         self._rules = Rules(sayings)
 
@@ -140,7 +138,7 @@ class Replies:
                     return self._evaluations.started(asked, job)
                 return self._falsifications.started(asked, job)
             case JobTold():
-                return self._standing.told(fact)
+                return self._evaluations.standing(fact)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():
