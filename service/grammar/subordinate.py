@@ -88,7 +88,7 @@ def _move_supposed(lattice: Lattice, start: int, end: int, divide: Divide) -> Di
     """The question about another move in the past, which is a frame of its own; None for another sentence."""
     if HAD_MOVED not in lattice.concepts:
         return None
-    tried = divide(start, end, frozenset())
+    tried = divide(start, _before_then_what(lattice, start, end), frozenset())
     said = [value for clause in tried.clauses for value in clause.actions]
     if tried.failed is not None or not said or "move" not in said[0] or said[0].get("about") != WHAT_IF:
         return None
@@ -97,6 +97,15 @@ def _move_supposed(lattice: Lattice, start: int, end: int, divide: Divide) -> Di
     if any(value.get("about") == WHAT_IF for value in said[1:]):
         return None
     return tried
+
+
+def _before_then_what(lattice: Lattice, start: int, end: int) -> int:
+    """Where a sentence ends that is followed by "what would have happened?", which says nothing more."""
+    for at in range(start + 1, end):
+        asked = _longest(lattice, at, THEN_WHAT)
+        if asked is not None and _past_marks(lattice, asked.end, end) >= end and _ends_part(lattice, at - 1, at):
+            return at - 1
+    return end
 
 
 def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[str, int, int]]:

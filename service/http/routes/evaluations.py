@@ -284,7 +284,7 @@ async def _read_sentence(
     raise NotUnderstood(sentence, errors=[FieldProblem("text", sentence)], understood=[text])
 
 
-_BESIDE_FILE = ("text", "scenario", "config", "vary", "session", "road")
+_BESIDE_FILE = ("text", "find", "scenario", "config", "vary", "session", "road")
 """What a scenario file says itself."""
 
 
