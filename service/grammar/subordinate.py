@@ -103,7 +103,11 @@ def _before_then_what(lattice: Lattice, start: int, end: int) -> int:
     """Where a sentence ends that is followed by "what would have happened?", which says nothing more."""
     for at in range(start + 1, end):
         asked = _longest(lattice, at, THEN_WHAT)
-        if asked is not None and _past_marks(lattice, asked.end, end) >= end and _ends_part(lattice, at - 1, at):
+        if (
+            asked is not None
+            and _past_marks(lattice, asked.end, end) >= end
+            and _ends_part(lattice, at - 1, at)
+        ):
             return at - 1
     return end
 
