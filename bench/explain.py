@@ -15,6 +15,7 @@ from service.actions import Ask
 from service.narration import Narrator
 from service.sessions.facts import Asked
 from sim.config import Config
+from sim.search.compiled_costs import load_compiled_costs
 from sim.session.timeline import Timeline
 from sim.types import Kind, Move, Outcome
 from tests.support.judged_drives import DENSITIES
@@ -76,6 +77,7 @@ def processor_times(call: Callable[[Asked], object], questions: Iterator[Asked])
 
 def main() -> None:
     """Print a row for each kind and planner."""
+    load_compiled_costs(compile_now=True)
     narrator = Narrator.load()
     for planner in COUNTS:
         for courtesy in COURTESIES:

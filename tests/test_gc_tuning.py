@@ -1,4 +1,4 @@
-"""Rings are found: new ones at once, old ones when memory has grown or time has passed."""
+"""Rings are found: new ones at once, old ones when memory has grown."""
 
 from __future__ import annotations
 
@@ -10,7 +10,14 @@ from collections.abc import Iterator
 
 import pytest
 
-from service.gc_tuning import FULL_EVERY_S, GROWTH, MEMORY_CHECK_S, Collector, resident_mb
+from service.gc_tuning import (
+    FULL_EVERY_S,
+    GROWTH,
+    LEAST_GROWTH_MB,
+    MEMORY_CHECK_S,
+    Collector,
+    resident_mb,
+)
 
 
 class Ring:
@@ -38,7 +45,7 @@ def lost(*, old: bool) -> weakref.ref[Ring]:
 
 class Machine:
     def __init__(self) -> None:
-        self.now_s, self.memory_mb = 100.0, 200.0
+        self.now_s, self.memory_mb = 100.0, 1000.0
         self.collector = Collector(lambda: self.now_s, lambda: self.memory_mb)
 
 
@@ -63,8 +70,27 @@ def test_an_old_one_when_memory_has_grown() -> None:
     assert machine.collector.collect() == 0, "what it is then is what it grows from"
 
 
-def test_an_old_one_after_some_minutes() -> None:
+def test_memory_that_stands_is_never_looked_through() -> None:
     machine, ring = Machine(), lost(old=True)
+    machine.memory_mb += LEAST_GROWTH_MB - 1
+    for _ in range(3):
+        machine.now_s += FULL_EVERY_S
+        assert machine.collector.collect() == 0
+    assert ring() is not None
+
+
+def test_twice_a_little_is_no_growth() -> None:
+    machine = Machine()
+    machine.memory_mb = 100.0
+    for held, whole in ((100.0, 0), (210.0, 0), (357.0, 2)):
+        machine.memory_mb = held
+        machine.now_s += MEMORY_CHECK_S
+        assert machine.collector.collect() == whole
+
+
+def test_an_old_one_after_some_minutes_where_memory_has_grown() -> None:
+    machine, ring = Machine(), lost(old=True)
+    machine.memory_mb += LEAST_GROWTH_MB
     machine.now_s += FULL_EVERY_S - 1
     assert (machine.collector.collect(), ring() is None) == (0, False)
     machine.now_s += MEMORY_CHECK_S
@@ -75,7 +101,12 @@ def test_what_live_sessions_need_is_no_growth() -> None:
     machine = Machine()
     needed_mb = 0.0
     machine.collector = Collector(lambda: machine.now_s, lambda: machine.memory_mb, lambda: needed_mb)
-    for more_mb, of_sessions, whole in ((200.0, 200.0, 0), (90.0, 0.0, 0), (20.0, 0.0, 2), (0.0, -200.0, 2)):
+    for more_mb, of_sessions, whole in (
+        (1000.0, 1000.0, 0),
+        (450.0, 0.0, 0),
+        (100.0, 0.0, 2),
+        (0.0, -1000.0, 2),
+    ):
         machine.memory_mb += more_mb
         needed_mb += of_sessions
         machine.now_s += MEMORY_CHECK_S
@@ -84,7 +115,7 @@ def test_what_live_sessions_need_is_no_growth() -> None:
 
 def test_memory_that_shrinks_is_what_it_grows_from() -> None:
     machine = Machine()
-    for held_now, whole in ((290.0, 0), (100.0, 0), (160.0, 2)):
+    for held_now, whole in ((1450.0, 0), (500.0, 0), (800.0, 2)):
         machine.memory_mb = held_now
         machine.now_s += MEMORY_CHECK_S
         assert machine.collector.collect() == whole

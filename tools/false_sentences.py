@@ -26,6 +26,7 @@ from sim.explain import QuestionError, why, why_not
 from sim.explain.crash import why_crashed
 from sim.explain.what_if import what_if
 from sim.plan import traits_of
+from sim.search.compiled_costs import load_compiled_costs
 from sim.session.timeline import Timeline
 from sim.types import Kind, Move, Outcome
 from tests.support import sentence_judge as judge
@@ -186,6 +187,7 @@ def main() -> int:
     parser.add_argument("--processes", type=int, default=1)
     options = parser.parse_args()
     looked, false, shown = Counter[str](), Counter[str](), Counter[str]()
+    load_compiled_costs(compile_now=True)
     jobs = jobs_of(options.decisions, options.crashes)
     for each, wrong, told in counted(jobs, options.results, options.processes):
         looked += each

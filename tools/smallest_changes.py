@@ -17,9 +17,10 @@ from collections.abc import Iterator
 from sim.config import Config
 from sim.explain import why_not
 from sim.explain.effort import Effort
+from sim.search.compiled_costs import load_compiled_costs
 from sim.session.timeline import Timeline
 from sim.types import Move, Outcome
-from tests.support.sentence_judge import changes_reaching, edits_of
+from tests.support.sentence_judge import changes_reaching
 
 PLANNERS = ("priority", "rules", "bfs", "dijkstra", "astar")
 MOST_EDITS = 3
@@ -55,9 +56,9 @@ def compared(timeline: Timeline, foil: Move, effort: Effort) -> tuple[str, str] 
         return None
     explanation = why_not(timeline, foil, effort=effort)
     told = [flip.change for flip in explanation.counterfactuals if flip.move is foil]
-    size = len(edits_of(told[0])) if told else None
+    size = len(told[0]) if told else None
     smallest = next(changes_reaching(state, foil, MOST_EDITS), None)
-    least = None if smallest is None else len(edits_of(smallest))
+    least = None if smallest is None else len(smallest)
     where = f"{state.config.planner} seed {state.config.seed} tick {state.world.tick} {foil}"
     both = f"{where}: {told} beside {smallest}"
     if size == least:
@@ -75,6 +76,7 @@ def main() -> int:
     parser.add_argument("--show", type=int, default=6)
     parser.add_argument("--effort", choices=[*Effort], default=Effort.USUAL)
     options = parser.parse_args()
+    load_compiled_costs(compile_now=True)
     draw, figures, shown = random.Random(options.seed), Counter[tuple[str, str]](), 0
     for planner in PLANNERS:
         for timeline in moments(options.decisions // len(PLANNERS), options.seed, planner):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -11,6 +12,7 @@ import typer
 from service.cli.terminal import plain
 from sim import planner_names
 from sim.plan.conformance import MAX_TOLD, Defect, Report, check, check_apart, find_planner, name_conflicts
+from sim.plan.metamorphic import RELATIONS, ROADS, check_relations
 
 DEFECTS, UNTRIED = 1, 2
 """Exit statuses."""
@@ -22,15 +24,28 @@ TOLD_EVERY_S = 5.0
 def check_planner(
     name: Annotated[str, typer.Argument(help="The planner's name, for instance: astar")],
     seconds: Annotated[float, typer.Option(min=1.0, help="How long it is tried at most.")] = 60.0,
+    relations: Annotated[
+        bool, typer.Option("--relations", help="Compare drives on roads that differ in a known way, too.")
+    ] = False,
+    roads: Annotated[int, typer.Option(min=1, max=100_000, help="For --relations: roads.")] = ROADS,
+    worlds: Annotated[
+        Path | None, typer.Option(help="For --relations: folder to write both roads of each finding to.")
+    ] = None,
 ) -> None:
     """Try a planner's promises on many roads.
 
     One of another package runs in a process of its own, with limits, as it
     does in a session. Exits with 1 when a promise is broken, and with 2 when
-    it could not be tried.
+    it could not be tried. With --relations it drives roads and their mirror
+    images, with a pothole more away from its way, with a barrier behind it
+    that it never reaches, and with longer sight. What does not hold is told
+    with a counterexample; it is a finding, and leaves the exit status alone.
 
     Example: roadtalk check-planner astar
     """
+    if worlds is not None and not worlds.is_dir():
+        typer.echo(f"There is no folder {plain(str(worlds))}.", err=True)
+        raise typer.Exit(UNTRIED)
     wrong = name_conflicts(name)
     planner = find_planner(name)
     if planner is None and name not in planner_names.installed():
@@ -46,7 +61,26 @@ def check_planner(
         report = check(planner, tell=progress.tell)
     progress.done()
     _tell([*wrong, *report.defects])
+    if relations and report.decisions and report.untried is None:
+        _tell_relations(name, roads, seconds, worlds)
     _conclude(report, wrong)
+
+
+def _tell_relations(name: str, roads: int, seconds: float, worlds: Path | None) -> None:
+    """Each relation: how often it was tried, and the first road on which it does not hold."""
+    progress = _Progress()
+    found = check_relations(name, roads, seconds, progress.tell)
+    progress.done()
+    for relation in found:
+        broken = len(relation.findings)
+        kept = f"held on {relation.tried - broken} of {relation.tried} roads"
+        typer.echo(f"{relation.name:<14} {RELATIONS[relation.name]} It {kept}.")
+        for finding in relation.findings[:1]:
+            typer.echo(f"{'':<14} seed {finding.seed}, tick {finding.tick}: {plain(finding.what)}")
+        if worlds is not None:
+            for finding in relation.findings:
+                path = worlds / f"{relation.name}-{finding.seed}.txt"
+                path.write_text(f"{finding.road}\n{finding.other}", encoding="utf-8")
 
 
 def _tell(defects: list[Defect]) -> None:

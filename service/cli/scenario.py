@@ -84,7 +84,7 @@ def scenario(
 
 def _list(as_json: bool) -> None:
     if as_json:
-        echo_json([named_scenario(each).to_values() for each in NAMES])
+        echo_json({"scenarios": [named_scenario(each).to_values() for each in NAMES]})
         return
     width = max(map(len, NAMES))
     for each in NAMES:

@@ -10,6 +10,7 @@ from threading import Event
 from typing import Annotated, Any, Final
 
 import typer
+import yaml
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 from service.cli.terminal import URL, console, echo_json, fail, plain
@@ -43,7 +44,10 @@ def worst(
         int | None,
         typer.Option(min=1, max=256, help="Processes on this machine. Default: one for each core."),
     ] = None,
-    cases: Annotated[Path | None, typer.Option(help="Folder to write a file for each case to.")] = None,
+    cases: Annotated[
+        Path | None,
+        typer.Option(help="Folder to write each case to: for --check, and as a scenario file."),
+    ] = None,
     to: Annotated[
         list[Path] | None, typer.Option(help="File of the report: .html, .md, .json or .csv. Repeatable.")
     ] = None,
@@ -84,6 +88,10 @@ def worst(
             path = cases / f"{each['case']['name']}.json"
             path.write_text(json.dumps(each["case"], indent=1) + "\n", encoding="utf-8")
             typer.echo(f"{path}", err=as_json)
+            if each["scenario"] is not None:
+                named = path.with_suffix(".yaml")
+                named.write_text(yaml.safe_dump(each["scenario"], sort_keys=False), encoding="utf-8")
+                typer.echo(f"{named}", err=as_json)
 
 
 def _spec(

@@ -201,6 +201,10 @@ class AsyncSession(AsyncInNotebook):
         wanted = {"frames": form, "view": view, "fps": fps, "side": side}
         return self._client._pictures(self.id, patience_s, wanted)
 
+    async def rename(self, name: str | None) -> answers.Session:
+        """Give it another name, or none."""
+        return await self._client._send(endpoints.rename_session(self.id, name))
+
     async def delete(self) -> None:
         """End it and forget it."""
         await self._client._send(endpoints.delete_session(self.id))

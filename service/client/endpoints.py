@@ -112,6 +112,11 @@ def read_session(session: str) -> Call[answers.Session]:
     return Call("GET", _session_path(session), _json(answers.Session))
 
 
+def rename_session(session: str, name: str | None) -> Call[answers.Session]:
+    """Gives a session another name, or none."""
+    return Call("PATCH", _session_path(session), _json(answers.Session), {"name": name}, key=new_key())
+
+
 def delete_session(session: str) -> Call[None]:
     """Ends a session."""
     return Call("DELETE", _session_path(session), lambda _: None, key=new_key())

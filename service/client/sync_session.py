@@ -200,6 +200,10 @@ class Session(InNotebook):
         wanted = {"frames": form, "view": view, "fps": fps, "side": side}
         return self._client._pictures(self.id, patience_s, wanted)
 
+    def rename(self, name: str | None) -> answers.Session:
+        """Give it another name, or none."""
+        return self._client._send(endpoints.rename_session(self.id, name))
+
     def delete(self) -> None:
         """End it and forget it."""
         self._client._send(endpoints.delete_session(self.id))

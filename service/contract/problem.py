@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict
 
 from service.contract.command import ChoiceModel, Interpreter, PendingQuestion
+from service.contract.evaluation import StateName
 from service.contract.model import DocumentedAs, Model
 
 
@@ -44,3 +45,5 @@ class ProblemDocument(BaseModel):
     """The question, where the session waits for the answer."""
     sequence: int | None = None
     """The session's sequence number, if it was changed meanwhile."""
+    state: StateName | None = None
+    """How an evaluation stands that has no report."""

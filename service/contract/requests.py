@@ -83,6 +83,12 @@ class Recording(Sent):
     )
 
 
+class NewName(Sent):
+    """What a session is called from now on."""
+
+    name: Name | None = Field(description="Null takes the name away.")
+
+
 class NewSession(Sent):
     """How a session begins. Everything may be left out; without a seed one is drawn and told."""
 

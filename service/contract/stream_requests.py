@@ -57,6 +57,9 @@ class Subscribe(Sent):
     view: Literal["road", "schematic"] = "road"
     fps: int = Field(30, ge=1, le=60)
     side: int = Field(480, ge=64, le=1080)
+    theme: Literal["dark", "light"] = "dark"
+    boxes: bool = Field(True, description="Bounding boxes around what moves.")
+    figures: bool = Field(True, description="The strip of figures along the upper edge.")
 
 
 class Unsubscribe(Sent):

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache, partial
-from typing import Any, Final
+from typing import Any
 
 import orjson
 
+from service.evaluations.names import EVALUATION, FIND_WORST
 from service.jobs.kind import Parts, Piece, Spec
 from service.resources import DEFAULT_LANGUAGE
 from sim.evaluate.spec import Evaluation, Part
 from sim.falsify import Falsification
 from sim.falsify.stages import pieces, total
-
-EVALUATION: Final = "evaluation"
-FIND_WORST: Final = "find_worst"
 
 
 class EvaluationJobs:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from service.evaluations.kinds import EVALUATION, FIND_WORST
+from service.evaluations.names import EVALUATION, FIND_WORST
 from service.jobs import JobRunner
 from service.problems import NotAvailable
 from service.refusals import refusals

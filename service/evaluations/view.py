@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
-from service.evaluations.kinds import EVALUATION, FIND_WORST
+from service.evaluations.names import EVALUATION, FIND_WORST
 from service.narration import evaluation_words, falsification_words
 from sim.evaluate import Evaluation
 from sim.falsify import Falsification
@@ -26,10 +26,9 @@ class JobView(Protocol):
     seed: int
     same_road: bool
     conditions: Sequence[Mapping[str, Any]]
-    """What is compared beside the planners."""
 
-    def done(self, units: int) -> int:
-        """Episodes (or worlds) that are done after these units of work."""
+    def done(self, worked: int) -> int:
+        """How many of the runs are done once so much of the job's work is."""
 
     def paragraphs(self, result: Result) -> list[str]:
         """What came of it, in plain language."""
@@ -60,11 +59,12 @@ class _EvaluationView:
         self.runs = self._spec.episodes
         self.planners: Sequence[str] = self._spec.planners
         self.seed, self.same_road = self._spec.seed, self._spec.world is not None
+
         self.conditions: Sequence[Mapping[str, Any]] = [dict(case.said) for case in self._spec.cases]
 
-    def done(self, units: int) -> int:
+    def done(self, worked: int) -> int:
         """See `JobView.done`."""
-        return units
+        return worked
 
     def paragraphs(self, result: Result) -> list[str]:
         """See `JobView.paragraphs`."""
@@ -90,7 +90,7 @@ class _EvaluationView:
 class _FalsificationView:
     """A search for failures."""
 
-    same_road = False
+    same_road: bool = False
     conditions: Sequence[Mapping[str, Any]] = ()
 
     def __init__(self, spec: Mapping[str, Any], language: str) -> None:
@@ -101,9 +101,9 @@ class _FalsificationView:
         self.runs, self.seed = self._spec.worlds, self._spec.seed
         self.planners: Sequence[str] = (self._spec.planner,)
 
-    def done(self, units: int) -> int:
+    def done(self, worked: int) -> int:
         """See `JobView.done`."""
-        return min(self.runs, units)
+        return min(self.runs, worked)
 
     def paragraphs(self, result: Result) -> list[str]:
         """See `JobView.paragraphs`."""

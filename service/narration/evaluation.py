@@ -11,6 +11,7 @@ from service.narration.conditions import Conditions
 from service.narration.inflection import capital
 from service.narration.sayings import Sayings
 from service.sessions.facts import JobTold
+from service.store import JobRecord
 from sim.config import Config
 from sim.evaluate.closeness import TTC_S
 from sim.evaluate.spec import Evaluation
@@ -72,13 +73,16 @@ class EvaluationWords:
         spec = Evaluation.from_json(job.spec)
         if job.result is not None:
             return self.ended(spec, job.result, job.id)
-        state = "cancelled_now" if fact.cancelled else job.state
+        return self.standing_of(job, self.title(spec), job.done, job.total, cancelled=fact.cancelled)
+
+    def standing_of(self, job: JobRecord, title: str, done: int, total: int, *, cancelled: bool) -> str:
+        """How far a job of any kind is that has no result; `done` of `total` runs."""
         return self._say(
             "standing",
-            state,
-            title=self.title(spec),
-            done=self._whole(job.done),
-            total=self._whole(job.total),
+            "cancelled_now" if cancelled else job.state,
+            title=title,
+            done=self._whole(done),
+            total=self._whole(total),
             percent=self.percent(min(0.999, job.done / max(1, job.total))),
             error=job.error or "",
         )

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from service.narration.evaluation import REPORT
+from service.narration.evaluation import REPORT, EvaluationWords
 from service.narration.sayings import Sayings
+from service.sessions.facts import JobTold
 from sim.falsify import Falsification
 
 Json = Mapping[str, Any]
@@ -28,6 +29,7 @@ class FalsificationWords:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._evaluations = EvaluationWords(sayings)
 
     def started(self, spec: Falsification, job: str | None) -> str:
         """The reply to what asks for a search; `job`: its id once it is started."""
@@ -42,6 +44,19 @@ class FalsificationWords:
         if result["cases"]:
             told.append(self._say("simplest", things=self.things(result["cases"][0]["things"])))
         return self._say("done", told=" ".join(told), link=REPORT.format(id=job_id))
+
+    def standing(self, fact: JobTold) -> str:
+        """The reply to "how is the evaluation going?" and "cancel the evaluation" about a search."""
+        job = fact.job
+        if job is None or (fact.want == "cancel" and not fact.cancelled):
+            return self._evaluations.standing(fact)
+        spec = Falsification.from_json(job.spec)
+        if job.result is not None:
+            return self.ended(spec, job.result, job.id)
+        done = min(spec.worlds, job.done)
+        return self._evaluations.standing_of(
+            job, self.title(spec), done, spec.worlds, cancelled=fact.cancelled
+        )
 
     def title(self, spec: Falsification) -> str:
         """The heading of a report."""

@@ -94,13 +94,13 @@ class Planners:
         tick = _begins(ask, timeline)
         here = planners_here(timeline, ask.planners, tick=tick)
         parting = here.decided(here.others[0]) if len(here.others) == 1 else None
-        lines = self._here(here, parting, best=ask.what == "compare", past=tick is not None)
-        told = [self._agreed(here, asked), self._from(tick, timeline), lines]
+        first = [Part(0, self._agreed(here, asked)), Part(0, self._from(tick, timeline))]
+        told = self._here(here, first, parting, best=ask.what == "compare", past=tick is not None)
         values = planners_json(here)
         if parting is not None:
             texts = self._options.texts(parting.own), self._options.texts(parting.other)
             values = planners_json(here, parting, texts)
-        return " ".join(part for part in told if part), values | {"from_tick": tick}
+        return told, values | {"from_tick": tick}
 
     def _from(self, tick: int | None, timeline: Timeline) -> str:
         """From which past moment the planners were run."""
@@ -118,13 +118,15 @@ class Planners:
         word = None if agrees is None else yes_and_no(self._sayings, asked)["yes" if agrees else "no"]
         return "" if word is None else self._say("judged", "good", yes=word)
 
-    def _here(self, found: PlannersHere, parting: Parting | None, *, best: bool, past: bool = False) -> str:
-        """One line for each way to drive; where they are too many words, one for each end."""
-        parts = self._lines(found, best=best, briefly=False, past=past)
+    def _here(
+        self, found: PlannersHere, first: list[Part], parting: Parting | None, *, best: bool, past: bool
+    ) -> str:
+        """After `first`, a line for each way to drive; where they are too many words, one for each end."""
+        parts = first + self._lines(found, best=best, briefly=False, past=past)
         if parting is not None:
             parts.append(Part(1, self._parting(parting)))
         if sum(len(part.text.split()) for part in parts) > MOST_WORDS:
-            parts = self._lines(found, best=best, briefly=True)
+            parts = first + self._lines(found, best=best, briefly=True)
         return within(parts, None)
 
     def _lines(self, found: PlannersHere, *, best: bool, briefly: bool, past: bool = False) -> list[Part]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
+from service.evaluations.names import FIND_WORST
 from service.narration.evaluation import EvaluationWords
 from service.narration.falsification import FalsificationWords
 from service.narration.goals import Goals
@@ -49,8 +50,8 @@ from sim.actions import (
     Trigger,
 )
 from sim.config import Config
-from sim.evaluate import Evaluation
 from sim.events import EventType
+from sim.falsify import Falsification
 from sim.perceive import sensor_named
 from sim.plan import traits_of
 from sim.session.edits import Applied, Change
@@ -133,12 +134,13 @@ class Replies:
             case Viewed(view=view, shown=shown):
                 name = self._sayings.say("replies", "views", view)
                 return self._say("shown" if shown else "hidden", view=name)
-            case JobAsked(evaluation=asked, job=job):
-                if isinstance(asked, Evaluation):
-                    return self._evaluations.started(asked, job)
-                return self._falsifications.started(asked, job)
+            case JobAsked(evaluation=asked):
+                if isinstance(asked, Falsification):
+                    return self._falsifications.started(asked, fact.job)
+                return self._evaluations.started(asked, fact.job)
             case JobTold():
-                return self._evaluations.standing(fact)
+                searched = fact.job is not None and fact.job.kind == FIND_WORST
+                return (self._falsifications if searched else self._evaluations).standing(fact)
             case Chatted(kind=kind):
                 return self._sayings.say("chat", kind)
             case Asked() | Advised():

@@ -8,6 +8,7 @@ from service.contract.encode.forecast import what_if_json
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds, likely
 from service.narration.foils import Foils
+from service.narration.had_been import HadBeen
 from service.narration.naming import Naming
 from service.narration.rearranged import supposed_rearranged
 from service.narration.sayings import Sayings
@@ -52,6 +53,7 @@ class WhatIfs:
         self._sayings = sayings
         self._conditions = Conditions(sayings)
         self._foils = Foils(sayings)
+        self._had_been = HadBeen(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`. What cannot be done is answered too, and nothing is run for it."""
@@ -73,7 +75,9 @@ class WhatIfs:
         text = self.text(ask, found)
         if len(actions) < len(change):
             text = f"{text} {self._say('rest_aside')}"
-        return plain(self._sayings, ask, found.state, text) | what_if_json(change, found)
+        past, facts = self._had_been.told(asked)
+        text = f"{past} {text}" if past else text
+        return plain(self._sayings, ask, found.state, text) | what_if_json(change, found) | facts
 
     def text(self, ask: Ask, found: WhatIf) -> str:
         """What would be, in words."""

@@ -18,10 +18,11 @@ import structlog
 from service.actions.table import traits_of
 from service.problems import NotSaved, UnknownSession
 from service.server_timing import part as timed
-from service.sessions.event_feed import CHANGED, Told
+from service.sessions.event_feed import CHANGED, Told, narrate_parts
 from service.sessions.facts import Fact, merge_views, parts_with_events, performed_actions
 from service.sessions.latest_decision import LatestDecision
 from service.sessions.outcome import make_entry
+from service.sessions.part import SessionPart
 from service.sessions.perform import perform_actions, tell_outcome
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.started_jobs import forget_jobs, start_jobs
@@ -42,11 +43,11 @@ MAX_STREAMED_TICKS = 8
 """Steps of up to so many ticks are published tick by tick."""
 
 
-class Changes:
+class Changes(SessionPart):
     """Performs the changes of one session in turn. All methods are for the event loop's thread."""
 
     def __init__(self, session: Session) -> None:
-        self._session = session
+        super().__init__(session)
         self._lock = asyncio.Lock()
 
     @property
@@ -164,11 +165,10 @@ class Changes:
 
     async def _tell_events(self, outcome: Outcome) -> list[Told]:
         """The events of each part of an outcome in words, made in a thread where that takes long."""
-        feed = self._session.feed
-        parts = parts_with_events(outcome.facts)
+        session, parts = self._session, parts_with_events(outcome.facts)
         if any(part.events and long_to_tell(run) for run, part in parts):
-            return await self._session.services.work.in_thread(feed.narrate_parts, parts)
-        return feed.narrate_parts(parts)
+            return await session.services.work.in_thread(narrate_parts, session.narrator, parts)
+        return narrate_parts(session.narrator, parts)
 
     async def _store(self, outcome: Outcome, transaction: Transaction, preconditions: Preconditions) -> None:
         session = self._session

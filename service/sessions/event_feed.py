@@ -7,10 +7,13 @@ a thread; whatever is written later waits for them, so that the log is in order.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, TypeAlias
 
 from service.sessions.log import EventLog, LogEvent
 from service.sessions.messages import changed_message, tick_message
+from service.sessions.narrator_protocol import NarratorProtocol
+from service.sessions.part import SessionPart
 from service.sessions.scheduler.background_task import BackgroundTask
 from service.sessions.scheduler.tick_batch import TickBatch
 from service.sessions.subscribers import Subscribers
@@ -29,12 +32,12 @@ Told: TypeAlias = list[tuple[Event, str]]
 """Events of one tick or action, each in words."""
 
 
-class EventFeed:
+class EventFeed(SessionPart):
     """Writes a session's events to its log and publishes them. For the event loop's thread only."""
 
     def __init__(self, session: Session, log_capacity: int) -> None:
         """`log_capacity`: how many lines the log holds."""
-        self._session = session
+        super().__init__(session)
         self.log = EventLog(log_capacity)
         self.subscribers = Subscribers()
         self.tick_batch = TickBatch(self.subscribers)
@@ -51,16 +54,13 @@ class EventFeed:
 
     def narrate_in_thread(self, run: SimState, part: Applied | StepResult) -> None:
         """Put events into words in a thread, then write and publish them."""
-        self._narration.start(lambda: self._narrate(run, part))
+        narrator = self._session.narrator
+        self._narration.start(lambda: _narrate(narrator, run, part))
 
     def log_events(self, run: SimState, part: Applied | StepResult) -> list[LogEvent]:
         """Write the events of a tick or an action to the log; returns the lines."""
         self._narration.finish()
-        return self.write(self._narrate(run, part)) if part.events else []
-
-    def narrate_parts(self, parts: Sequence[tuple[SimState, Applied | StepResult]]) -> list[Told]:
-        """The events of each part in words, as `write` takes them; also for other threads."""
-        return [self._narrate(run, part) for run, part in parts]
+        return self.write(_narrate(self._session.narrator, run, part)) if part.events else []
 
     def write(self, narrated: Told) -> list[LogEvent]:
         """Write events that are in words already to the log; returns the lines."""
@@ -81,6 +81,10 @@ class EventFeed:
         """Write a line; one that is `transient` is not there after a restart."""
         self._narration.finish()
         return self.log.add(tick, kind, text, transient=transient)
+
+    def present(self) -> SimState:
+        """The present state of the simulation."""
+        return self._session.run
 
     def announce_reachability(self, event: Event) -> None:
         """Write and publish what was found out about a road that began by itself."""
@@ -120,10 +124,18 @@ class EventFeed:
 
         self.tick_batch.publish_now(session.timeline.tick, message)
 
-    def _narrate(self, run: SimState, part: Applied | StepResult) -> Told:
-        narrator = self._session.narrator
-        return [(event, narrator.event(event, run)) for event in part.events]
-
     def _publish_late(self, narrated: Told) -> None:
-        lines = self.write(narrated)
-        self.publish_change(None, lines[-1].text, (), lines)
+        with suppress(ReferenceError):  # nobody has the session any more
+            lines = self.write(narrated)
+            self.publish_change(None, lines[-1].text, (), lines)
+
+
+def narrate_parts(
+    narrator: NarratorProtocol, parts: Sequence[tuple[SimState, Applied | StepResult]]
+) -> list[Told]:
+    """The events of each part in words, as `EventFeed.write` takes them; also for other threads."""
+    return [_narrate(narrator, run, part) for run, part in parts]
+
+
+def _narrate(narrator: NarratorProtocol, run: SimState, part: Applied | StepResult) -> Told:
+    return [(event, narrator.event(event, run)) for event in part.events]

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import structlog
 
 from service.sessions.latest_decision import LatestDecision
+from service.sessions.part import SessionPart
 from service.sessions.scheduler.external_planner import ExternalPlanner
 from service.sessions.scheduler.live_decision import LiveDecision
 from service.sessions.scheduler.playback_speed import is_accelerated, ticks_of_turn
@@ -32,11 +33,11 @@ if TYPE_CHECKING:
 _LOG = structlog.get_logger(__name__)
 
 
-class LiveTicks:
+class LiveTicks(SessionPart):
     """Ticks of one session. All methods are for the event loop's thread."""
 
     def __init__(self, session: Session) -> None:
-        self._session = session
+        super().__init__(session)
         self._external_planner = ExternalPlanner(self._on_decision)
         self._live_decision = LiveDecision(
             session.services.work.live, self._on_decision, self._on_no_decision
@@ -106,8 +107,10 @@ class LiveTicks:
 
     def _awaits(self, run: SimState) -> bool:
         """Whether a decision about a state is still wanted; it is asked anew when its turn comes."""
-        session = self._session
-        return not (session.closed or self._held or session.paused) and session.run is run
+        session = self._whole()
+        if session is None or session.closed or self._held or session.paused:
+            return False
+        return session.run is run
 
     def _on_no_decision(self, run: SimState, fault: str) -> None:
         """Switch to manual driving where the session's own planner did not answer in time."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import secrets
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from datetime import UTC, datetime
 from functools import partial
 
@@ -242,6 +242,14 @@ class SessionManager:
     async def entries(self, session: Session) -> Sequence[EntryRecord]:
         """The stored entries of a session."""
         return await self._services.store.entries(session.id)
+
+    async def rename(self, session_id: str, name: str | None) -> Session:
+        """Give a session another name, or none. Raises `UnknownSession`."""
+        session = await self.get(session_id)
+        if not await self._services.store.rename(session_id, name):
+            raise UnknownSession
+        session.record = replace(session.record, name=name)
+        return session
 
     async def delete(self, session_id: str, preconditions: Preconditions = NO_PRECONDITIONS) -> None:
         """Delete a session after the change under way. Raises `UnknownSession` or `PreconditionFailed`."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Hashable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass
 
 from anyio import to_thread
@@ -102,7 +103,12 @@ class ReachabilityMonitor:
             self._search(waiting)
         if done.cancelled():
             return
-        seen, now = _road_outlook(run, done.result()), self._present()
+        with suppress(ReferenceError):  # nobody has the session any more
+            self._take(_road_outlook(run, done.result()))
+
+    def _take(self, seen: RoadOutlook) -> None:
+        """Take a result as known, and tell what is new about it, if it is about the present road."""
+        now = self._present()
         if seen.road == _road_key(now) and now.world.outcome is Outcome.RUNNING:
             event = self.event_for(seen, now)
             self.remember(seen)

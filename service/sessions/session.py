@@ -65,7 +65,7 @@ class Session:
         self.log = self.feed.log
         self.subscribers = self.feed.subscribers
         self.tick_batch = self.feed.tick_batch
-        self.reachability = ReachabilityMonitor(lambda: self.run, self.feed.announce_reachability)
+        self.reachability = ReachabilityMonitor(self.feed.present, self.feed.announce_reachability)
         self._state_cache = StateCache()
         self.latest: LatestDecision | None = None
         """the decision that led to the present state, where it is known"""

@@ -208,6 +208,9 @@ class Store(Protocol):
         `named`: also those with a name or a bookmark. None where no session at all was used since then.
         """
 
+    async def rename(self, session_id: str, name: str | None) -> bool:
+        """Give a session another name, or none; returns whether it existed."""
+
     async def delete(self, session_id: str) -> bool:
         """Delete a session, its entries and its snapshot; returns whether it existed.
 

@@ -133,6 +133,13 @@ class MemoryStore:
         ]
         return sorted(found, key=self._used_at.__getitem__)[:limit]
 
+    async def rename(self, session_id: str, name: str | None) -> bool:
+        """See `Store.rename`."""
+        if session_id not in self._sessions or session_id in self._unseen:
+            return False
+        self._sessions[session_id] = replace(self._sessions[session_id], name=name)
+        return True
+
     async def delete(self, session_id: str) -> bool:
         """See `Store.delete`."""
         if session_id not in self._sessions or session_id in self._unseen:

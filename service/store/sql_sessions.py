@@ -142,6 +142,12 @@ class SqlSessions(SqlTransactions):
             rows = await connection.execute(query.order_by(SESSIONS.c.used_at).limit(limit))
             return list(rows.scalars())
 
+    async def rename(self, session_id: str, name: str | None) -> bool:
+        """See `Store.rename`."""
+        named = update(SESSIONS).where(SESSIONS.c.id == session_id, ~SESSIONS.c.unseen).values(name=name)
+        async with self._transaction() as connection:
+            return (await connection.execute(named)).rowcount > 0
+
     async def delete(self, session_id: str) -> bool:
         """See `Store.delete`."""
         seen = update(SESSIONS).where(SESSIONS.c.id == session_id, ~SESSIONS.c.unseen)

@@ -13,6 +13,7 @@ from sim.decide import moves_where, next_belief
 from sim.ego import Ego
 from sim.explain.chances import Chances, chances
 from sim.explain.episode_rollout import rollout
+from sim.explain.stuck import is_stuck, shut_off
 from sim.fast_replace import field_setter
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.plan import Decision
@@ -108,8 +109,13 @@ def _end(state: SimState, ego: str) -> Future | None:
     recurs = alone and repeats_for_ever(state.config, state.ego().planner) and not state.config.repetition
     seen: set[Situation] = set()
     last = state
+    stuck: bool | None = None
     if state.world.outcome is Outcome.RUNNING:
         for before, tick in rollout(state, ego=ego):
+            if tick.state.world.outcome is Outcome.RUNNING and stuck is None and shut_off(tick, ego):
+                stuck = is_stuck(tick.state)
+                if stuck:
+                    return Future(Outcome.STUCK, state.config.max_ticks + 1)
             if recurs:
                 now = situation(before.world)
                 if now in seen:

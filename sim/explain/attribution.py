@@ -14,13 +14,14 @@ from typing import Any, Final
 from sim import sensor_names
 from sim.actions import Set
 from sim.config import Config
-from sim.perceive import NO_BELIEF
+from sim.perceive import NO_BELIEF, Belief, Percept, perceive
 from sim.session.edits import apply
 from sim.session.errors import EditError
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
-from sim.types import Outcome
+from sim.types import Outcome, is_ego
+from sim.world import World
 
 PLAIN: Final = {"weather": "clear", "time_of_day": "day"}
 """Conditions under which nothing is hidden."""
@@ -87,6 +88,36 @@ def rerun(timeline: Timeline, setting: str, value: str, tick: int | None = None)
     if world.outcome not in (Outcome.CRASH, Outcome.STUCK) or world.ended is None:
         return None
     return _rerun(timeline, timeline.at(world.episode_start), world.ended, setting, value)
+
+
+def seen_since(timeline: Timeline, setting: str, value: str, tick: int | None = None) -> int | None:
+    """The tick since when what was crashed into would have been seen where it was, on the very same drive.
+
+    None where it would not have been seen at the last decision, and where no crash stands.
+    Raises `ConfigError`.
+    """
+    state = timeline.state if tick is None else timeline.at(tick)
+    world = state.world
+    if world.outcome is not Outcome.CRASH or world.ended is None or world.cause is None:
+        return None
+    met = [name for name in world.cause.ids if not is_ego(name)]
+    changed: dict[str, Any] = {setting: value}
+    belief: Belief = NO_BELIEF
+    since: int | None = None
+    for before in timeline.between(world.episode_start, world.ended):
+        there = before.world
+        percept, belief = perceive(there, before.config.with_parts(**changed), 0, belief)
+        if not met or any(_missed(there, percept, name) for name in met):
+            since = None
+        elif since is None:
+            since = there.tick
+    return since
+
+
+def _missed(world: World, percept: Percept, name: str) -> bool:
+    """Whether a thing is not seen, or in another cell than it is in."""
+    there, seen = world.find(name), percept.find(name)
+    return there is None or seen is None or seen.cell != there.cell
 
 
 def _changes(config: Config) -> Iterator[tuple[str, str]]:

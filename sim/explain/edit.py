@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from sim.actions import Add, Prefer, WorldAction
 from sim.explain.factors import is_factor
@@ -15,6 +15,18 @@ class Edit:
 
     gone: str = ""
     actions: tuple[WorldAction, ...] = ()
+    of_wishes: bool = field(init=False, compare=False, repr=False)
+    """whether it changes wishes or settings, and nothing on the road"""
+    _hash: int = field(init=False, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        wished = is_factor(self.gone) or any(isinstance(action, Prefer) for action in self.actions)
+        object.__setattr__(self, "of_wishes", wished)
+        # Thousands of changes are looked up by their edits, and to hash an action takes long.
+        object.__setattr__(self, "_hash", hash((self.gone, self.actions)))
+
+    def __hash__(self) -> int:
+        return self._hash
 
     @property
     def barred(self) -> tuple[Cell, ...]:
@@ -24,11 +36,6 @@ class Edit:
             for action in self.actions
             if isinstance(action, Add) and action.kind == "barrier" and action.where and action.where.cell
         )
-
-    @property
-    def of_wishes(self) -> bool:
-        """Whether it changes wishes or settings; a change has at most one of these."""
-        return is_factor(self.gone) or any(isinstance(action, Prefer) for action in self.actions)
 
 
 Edits = tuple[Edit, ...]

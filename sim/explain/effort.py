@@ -33,7 +33,7 @@ _DECISION: Final = 4
 _TICK: Final = {Measure.TICKS: 1, Measure.COST: 4}
 """Work of each tick of a way to the goal, by what is weighed."""
 _COMPILED: Final = 15
-"""Work of a decision by cost where the compiled costs answer (`sim.search.compiled_costs`)."""
+"""Work of a decision that looks to the goal where the compiled costs answer (`sim.search.compiled_costs`)."""
 _NO_WAY: Final = 3
 """Ticks for each row of the road that count for a decision that finds no way to the goal."""
 
@@ -59,9 +59,9 @@ class WorkSpentError(Exception):
 
 
 def prepare(state: SimState) -> None:
-    """Load what makes the decisions of an explanation quick, where a planner on this road weighs costs."""
+    """Load what makes the decisions of an explanation quick, where a planner looks to the goal."""
     planners = {each.planner or state.config.planner for each in state.egos.values()}
-    if any(traits_of(planner).weighs_costs for planner in planners):
+    if any(traits_of(planner).plans_to_goal for planner in planners):
         load_compiled_costs()
 
 
@@ -71,7 +71,7 @@ def work_of(decision: Decision, config: Config) -> int:
     cost = decision.chosen.cost
     if not of_tick or traits_of(decision.planner).quick:
         return _DECISION
-    if decision.measure is Measure.COST and are_loaded() and compiled_rules(config):
+    if are_loaded() and compiled_rules(config):
         return _COMPILED
     if cost is None:
         return _DECISION + of_tick * _NO_WAY * config.rows

@@ -16,7 +16,7 @@ from sim.perceive import Percept
 from sim.plan import Decision, Measure
 from sim.rules.compiled import compiled_rules
 from sim.search.compiled_costs import Unlike, are_loaded, compiled_moves
-from sim.search.costs import Weights, weights
+from sim.search.costs import TICKS_ALONE, Weights, weights
 from sim.search.reachability import steps_left
 from sim.state import SimState
 from sim.types import Move
@@ -36,7 +36,7 @@ class QuickMoves:
     def answers(state: SimState, decision: Decision, percept: Percept) -> bool:
         """Whether this can be had, by the planner, the road and what is loaded."""
         return (
-            decision.measure is Measure.COST
+            decision.measure in (Measure.COST, Measure.TICKS)
             and decision.asked is None
             and decision.fault is None
             and are_loaded()
@@ -47,14 +47,15 @@ class QuickMoves:
             and steps_left(state.config, percept.episode_tick) > 1
         )
 
-    def __init__(self, config: Config, percept: Percept, fact: Move) -> None:
-        """Precondition: `answers`. `fact`: the move of the decision."""
+    def __init__(self, config: Config, percept: Percept, fact: Move, by: Measure) -> None:
+        """Precondition: `answers`. `fact`: the move of the decision, `by`: what it weighs."""
         road = percept.road
         row = percept.ego // road.columns
         self.work = work_among_many(road.columns, row)
         """of one move"""
         self._config, self._percept, self._fact = config, percept, fact
-        self._charges = weights(config)
+        self._ticks = by is Measure.TICKS
+        self._charges = TICKS_ALONE if self._ticks else weights(config)
         self._limit = steps_left(config, percept.episode_tick)
         self._movers = {name: 1 << cell for cell, name in percept.movers.items()}
         self._fixed = {name: 1 << cell for cell, name in percept.hazards.items()}
@@ -107,4 +108,4 @@ class QuickMoves:
     def charges_without(self, names: Collection[str]) -> Weights:
         """The charges without those of these names that are wishes or settings."""
         config = without(self._config, names)
-        return self._charges if config is self._config else weights(config)
+        return self._charges if self._ticks or config is self._config else weights(config)

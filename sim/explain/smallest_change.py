@@ -125,9 +125,7 @@ class ChangeSearch:
 
     def _of_size(self, size: int) -> Iterator[Edits | None]:
         """The changes of so many edits, the most telling first; None where no more may be tried."""
-        changes = (
-            edits for edits in combinations(self._edits, size) if sum(edit.of_wishes for edit in edits) <= 1
-        )
+        changes = combinations(self._edits, size)
         if self._together is None:
             for edits in changes:
                 yield edits if self.tried < self._most else None

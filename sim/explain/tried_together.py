@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 
 from sim.actions import Add, WorldAction
 from sim.explain.edit import Edit, Edits
-from sim.explain.factors import is_factor
 from sim.explain.intervention import Intervention
 from sim.explain.quick_moves import QuickMoves, SeenOtherwise
 from sim.search.compiled_costs import Unlike
@@ -28,7 +27,7 @@ class TogetherTried:
         self._rerun = rerun
         self._quick = quick
         self._unlike: dict[Edit, Unlike | None] = {}
-        self._wished: dict[Edit, Weights] = {}
+        self._wished: dict[Edits, Weights] = {}
         self._usual = quick.charges_without(())
 
     def made(self, changes: Iterable[Edits]) -> dict[frozenset[Edit], Move]:
@@ -43,10 +42,8 @@ class TogetherTried:
 
     def _said(self, edits: Edits) -> SeenOtherwise | None:
         movers = fixed = barriers = potholes = 0
-        charges = self._usual
         for edit in edits:
             if edit.of_wishes:
-                charges = self._with_wish(edit)
                 continue
             if edit not in self._unlike:
                 self._unlike[edit] = self._of_edit(edit)
@@ -57,6 +54,8 @@ class TogetherTried:
             fixed |= unlike.fixed
             barriers |= unlike.barriers
             potholes |= unlike.potholes
+        wishes = tuple([edit for edit in edits if edit.of_wishes])
+        charges = self._with_wishes(wishes) if wishes else self._usual
         return SeenOtherwise(Unlike(movers, fixed, barriers, potholes), charges)
 
     def _of_edit(self, edit: Edit) -> Unlike | None:
@@ -80,13 +79,12 @@ class TogetherTried:
             return Unlike(barriers=1 << cell)
         return Unlike(potholes=1 << cell) if action.kind == "pothole" and cell in percept.movers else None
 
-    def _with_wish(self, edit: Edit) -> Weights:
-        if edit not in self._wished:
-            if is_factor(edit.gone):
-                self._wished[edit] = self._quick.charges_without((edit.gone,))
-            else:
-                state = self._rerun.state
-                for action in edit.actions:
-                    state = apply(state, action).state
-                self._wished[edit] = weights(state.config_of(self._rerun.ego))
-        return self._wished[edit]
+    def _with_wishes(self, edits: Edits) -> Weights:
+        """The charges once wishes were taken back, then others said."""
+        if edits not in self._wished:
+            state = self._rerun.state
+            back = self._rerun.removal([edit.gone for edit in edits if edit.gone])
+            for action in (*back, *(action for edit in edits for action in edit.actions)):
+                state = apply(state, action).state
+            self._wished[edits] = weights(state.config_of(self._rerun.ego))
+        return self._wished[edits]

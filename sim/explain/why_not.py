@@ -14,10 +14,11 @@ from contextlib import suppress
 
 from sim.actions import Add
 from sim.explain.alternatives import stakes
+from sim.explain.edit import Edit, Edits
 from sim.explain.effort import FOR_CHANGES, RESERVE, Effort, WorkSpentError
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.intervention import Intervention, wall
-from sim.explain.smallest_change import ChangeSearch, Edit, Edits, SmallestChange
+from sim.explain.smallest_change import ChangeSearch, SmallestChange
 from sim.explain.why_causes import by_salience, minimal_subset
 from sim.plan import Decision, Measure
 from sim.state import SimState

@@ -18,12 +18,14 @@ from sim.oracle.ddmin import ddmin
 from sim.state import SimState
 from sim.types import Outcome
 
-MAX_DRIVES: Final = 4_000
-"""Most episodes that are driven to shrink one world."""
+MAX_CELLS: Final = 1_000_000
+"""Most cells of road that are driven on to shrink one world: some 4,000 episodes on a default road."""
+LEAST_DRIVES: Final = 200
+"""Episodes that may be driven to shrink a world on a road of any size."""
 
 
 class GivenUpError(Exception):
-    """No 1-minimal world was found within `MAX_DRIVES`."""
+    """No 1-minimal world was found within the work that one may take."""
 
 
 class Shrinking:
@@ -33,6 +35,8 @@ class Shrinking:
         """`start`: the beginning of an episode that fails in a world that can be driven."""
         self._start = start
         self._cancelled = cancelled
+        cells = start.world.road.columns * start.world.road.rows
+        self._most = max(LEAST_DRIVES, MAX_CELLS // cells)
         self._failing: dict[frozenset[str], bool] = {}
         self._holding: dict[frozenset[str], bool] = {}
 
@@ -42,7 +46,7 @@ class Shrinking:
         if key not in self._failing:
             if self._cancelled():
                 raise CancelledError
-            if len(self._failing) >= MAX_DRIVES:
+            if len(self._failing) >= self._most:
                 raise GivenUpError
             self._failing[key] = outcome_of(with_only(self._start, key)) is not Outcome.SUCCESS
         return self._failing[key]

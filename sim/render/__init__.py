@@ -9,6 +9,7 @@ from __future__ import annotations
 from os import environ
 from typing import TYPE_CHECKING
 
+from sim.render.look import PLAIN, Look, Theme
 from sim.render.motion import STEP_FRAMES, smoothstep
 from sim.render.theme import MAX_SIDE_PX
 
@@ -32,6 +33,8 @@ __all__ = [
     "MIN_SIDE_PX",
     "STEP_FRAMES",
     "VIEWS",
+    "Look",
+    "Theme",
     "encode",
     "pixels",
     "render",
@@ -48,12 +51,13 @@ def render(
     phase: float = 1.0,
     size: tuple[int, int] | None = None,
     ego: str | None = None,
+    look: Look = PLAIN,
 ) -> pygame.Surface:
     """Draws a state in one of the `VIEWS`.
 
     `before` is the world one tick earlier: things glide from it to the present as `phase` goes from 0 to 1.
     `decision` is the decision taken in `before`. `ego`: the one that the road view follows, the first by
-    default. `size` is the largest (width, height) in pixels; the picture
+    default. `look`: its colours and marks. `size` is the largest (width, height) in pixels; the picture
     keeps its aspect ratio. Raises `ValueError` for an unknown view and for a size out of range.
     """
     environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
@@ -63,7 +67,7 @@ def render(
     if size is not None and not all(MIN_SIDE_PX <= side <= MAX_SIDE_PX for side in size):
         raise ValueError(f"the sides of a picture are {MIN_SIDE_PX} to {MAX_SIDE_PX} pixels, not {size}")
     if view == "road":
-        return draw_road(state, before, decision, phase, size, ego)
+        return draw_road(state, before, decision, phase, size, ego, look)
     if view == "schematic":
         return draw_schematic(state, size)
     raise ValueError(f"there is no view called {view!r}; there are {', '.join(VIEWS)}")

@@ -18,9 +18,9 @@ TILE_ROWS = 4
 _TILES = 8
 
 
-def draw_ground(picture: pygame.Surface, camera: Camera, rows: int) -> None:
-    """Draws the part of a road of `rows` rows that the camera sees."""
-    tile = _tile(camera.cell_px, camera.verge_px, camera.columns)
+def draw_ground(picture: pygame.Surface, camera: Camera, rows: int, *, light: bool = False) -> None:
+    """Draws the part of a road of `rows` rows that the camera sees, by day colours where `light`."""
+    tile = _tile(camera.cell_px, camera.verge_px, camera.columns, light=light)
     top = round(camera.top * camera.cell_px)
     for y in range(-(top % tile.get_height()), picture.get_height(), tile.get_height()):
         picture.blit(tile, (0, y))
@@ -32,21 +32,21 @@ def draw_ground(picture: pygame.Surface, camera: Camera, rows: int) -> None:
 
 
 @lru_cache(maxsize=_TILES)
-def _tile(cell_px: int, verge_px: int, columns: int) -> pygame.Surface:
+def _tile(cell_px: int, verge_px: int, columns: int, *, light: bool) -> pygame.Surface:
     """Draws a tile: some rows of road between start and finish, to be repeated."""
     size = (columns * cell_px + 2 * verge_px, TILE_ROWS * cell_px)
     picture = pygame.Surface(size)
-    picture.fill(theme.VERGE)
+    picture.fill(theme.VERGE_LIGHT if light else theme.VERGE)
     road = pygame.Rect(verge_px, 0, columns * cell_px, size[1])
-    picture.fill(theme.ASPHALT, road)
-    _grain(picture, road, columns * TILE_ROWS * GRAINS_A_CELL)
-    _lines(picture, road, cell_px, columns)
+    picture.fill(theme.ASPHALT_LIGHT if light else theme.ASPHALT, road)
+    grain = theme.ASPHALT_GRAIN_LIGHT if light else theme.ASPHALT_GRAIN
+    _grain(picture, road, columns * TILE_ROWS * GRAINS_A_CELL, grain)
+    _lines(picture, road, cell_px, columns, theme.LANE_LINE_LIGHT if light else theme.LANE_LINE)
     return picture
 
 
-def _grain(picture: pygame.Surface, road: pygame.Rect, count: int) -> None:
+def _grain(picture: pygame.Surface, road: pygame.Rect, count: int, colours: tuple[theme.Colour, ...]) -> None:
     draws = Stream.of(0, "asphalt")
-    colours = theme.ASPHALT_GRAIN
     for n in range(count):
         word = draws.word(n)
         x, y = (
@@ -56,14 +56,16 @@ def _grain(picture: pygame.Surface, road: pygame.Rect, count: int) -> None:
         picture.set_at((x, y), colours[(word >> 40) % len(colours)])
 
 
-def _lines(picture: pygame.Surface, road: pygame.Rect, cell_px: int, columns: int) -> None:
+def _lines(
+    picture: pygame.Surface, road: pygame.Rect, cell_px: int, columns: int, lane: theme.Colour
+) -> None:
     edge, dash = max(2, cell_px // 24), max(1, cell_px // 40)
     for x in (road.left, road.right - edge):
         picture.fill(theme.EDGE_LINE, (x, 0, edge, road.height))
     for column in range(1, columns):
         x = road.left + column * cell_px - dash // 2
         for y in range(cell_px // 4, road.height, cell_px):
-            picture.fill(theme.LANE_LINE, (x, y, dash, cell_px // 2))
+            picture.fill(lane, (x, y, dash, cell_px // 2))
 
 
 def _finish(picture: pygame.Surface, road: pygame.Rect, cell_px: int) -> None:

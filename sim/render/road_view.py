@@ -11,6 +11,7 @@ from sim.render import theme
 from sim.render.camera import Camera, camera_on
 from sim.render.ground import draw_ground
 from sim.render.hud import draw_figures, draw_verdict
+from sim.render.look import PLAIN, Look
 from sim.render.motion import Pose, glide_start, poses
 from sim.render.sensed_marks import draw_marks, marks_of
 from sim.render.sprites import av_sprite, sprite_of
@@ -34,6 +35,7 @@ def draw_road(
     phase: float,
     size: tuple[int, int] | None,
     ego: str | None = None,
+    look: Look = PLAIN,
 ) -> pygame.Surface:
     """See `sim.render.render`."""
     world, number = state.world, state.number(ego)
@@ -41,31 +43,33 @@ def draw_road(
     seen = poses(start, world, gone, number)
     camera = camera_on(state.config, seen.av.row, size)
     picture = pygame.Surface(camera.size)
-    draw_ground(picture, camera, state.config.rows)
+    draw_ground(picture, camera, state.config.rows, light=look.theme == "light")
     shown = (pose for pose in seen.things if camera.sees(pose.row))
     if seen.touch is not None:
         _draw_impact(picture, camera, seen.touch)
     for pose in shown:
-        _draw_thing(picture, camera, pose)
+        _draw_thing(picture, camera, pose, boxes=look.boxes)
     if decision is not None and world.outcome is Outcome.RUNNING:
         _draw_move(picture, camera, start, decision, seen.share)
     _blit(picture, av_sprite(camera.cell_px, number), camera.centre(seen.av.column, seen.av.row))
-    _draw_box(picture, camera, seen.av, theme.colour_of_ego(number))
+    if look.boxes:
+        _draw_box(picture, camera, seen.av, theme.colour_of_ego(number))
     if len(world.avs) > 1:
         for pose in (*seen.things, seen.av):
             if pose.thing.kind is Kind.AV:
                 _draw_number(picture, camera, pose)
     draw_weather(picture, state.config, camera.cell_px, world.tick, phase)
     draw_marks(picture, camera, marks_of(state, ego))
-    draw_figures(picture, state, camera.cell_px, ego=ego)
+    if look.figures:
+        draw_figures(picture, state, camera.cell_px, ego=ego)
     draw_verdict(picture, state, camera.cell_px)
     return picture
 
 
-def _draw_thing(picture: pygame.Surface, camera: Camera, pose: Pose) -> None:
+def _draw_thing(picture: pygame.Surface, camera: Camera, pose: Pose, *, boxes: bool) -> None:
     thing = pose.thing
     _blit(picture, sprite_of(thing, camera.cell_px), camera.centre(pose.column, pose.row))
-    if thing.kind.moves:
+    if boxes and thing.kind.moves:
         _draw_box(picture, camera, pose, theme.BOX)
 
 

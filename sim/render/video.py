@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Final
 from sim.decide import decide
 from sim.plan import Decision
 from sim.render import pixels, render
+from sim.render.look import PLAIN, Look
 from sim.state import SimState
 
 if TYPE_CHECKING:
@@ -83,6 +84,7 @@ def render_video(
     size: tuple[int, int],
     turn: Turn = nullcontext,
     decision_of: DecisionOf = decide,
+    look: Look = PLAIN,
 ) -> bytes:
     """Renders a video and returns the bytes of its file; `decision_of` gives the decision of each state.
 
@@ -93,25 +95,33 @@ def render_video(
         raise ValueError(f"films can be had as {' and '.join(VIDEO_FORMATS)}, not as {form!r}")
     if form == "mp4" and not has_video():
         raise VideoMissingError
-    pictures = (_render_frame(view, frame, size, turn, decision_of) for frame in video_frames(runs, fps))
+    pictures = (
+        _render_frame(view, frame, size, turn, decision_of, look) for frame in video_frames(runs, fps)
+    )
     if form == "mp4":
         return _mp4(pictures, fps)
     step = max(1, len(runs) // _SAMPLES)
     samples = [
-        _render_frame(view, Frame(state, state, 1.0), size, turn, decision_of) for state in runs[::step]
+        _render_frame(view, Frame(state, state, 1.0), size, turn, decision_of, look) for state in runs[::step]
     ]
     return _gif(pictures, samples, fps, frame_count(runs, fps))
 
 
 def _render_frame(
-    view: str, frame: Frame, size: tuple[int, int], turn: Turn, decision_of: DecisionOf
+    view: str, frame: Frame, size: tuple[int, int], turn: Turn, decision_of: DecisionOf, look: Look
 ) -> Image:
     from PIL.Image import fromarray
 
     decision = decision_of(frame.before) if frame.phase < 1.0 else None
     with turn():
         drawn = render(
-            view, frame.after, before=frame.before.world, decision=decision, phase=frame.phase, size=size
+            view,
+            frame.after,
+            before=frame.before.world,
+            decision=decision,
+            phase=frame.phase,
+            size=size,
+            look=look,
         )
         return fromarray(pixels(drawn))
 

@@ -15,7 +15,7 @@ A further behaviour is a class in a module of its own, named in `sim.rules.behav
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from itertools import chain, combinations, count, product
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 
@@ -157,8 +157,7 @@ class SidewaysTraffic(Behaviour):
         """See `Behaviour`: the first seed that draws it."""
         near = movers_beside(world)
         shares = {"courtesy": _share(drawn.yielding, near), "attentive": _share(drawn.attentive, near)}
-        base = config.with_parts(**shares)
-        tried = (base.with_parts(seed=seed) for seed in count())
+        tried = (_with_shares(config, **shares, seed=seed) for seed in count())
         return next(each for each in tried if self.reactions(world, each) == drawn)
 
 
@@ -171,6 +170,12 @@ def _subsets(near: Board, share: float) -> Iterator[tuple[Board, float]]:
     return (
         (board_of(some), share ** len(some) * (1.0 - share) ** (len(cells) - len(some))) for some in chosen
     )
+
+
+@lru_cache(maxsize=256)
+def _with_shares(config: Config, courtesy: float, attentive: float, seed: int) -> Config:
+    """A configuration with other chances and another seed; one is asked for at every tick of every future."""
+    return config.with_parts(courtesy=courtesy, attentive=attentive, seed=seed)
 
 
 def _share(drawn: Board, near: Board) -> float:

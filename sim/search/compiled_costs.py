@@ -7,6 +7,7 @@ that weigh costs answer from it. The answers are the same ones.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple
@@ -71,6 +72,12 @@ def are_compiled() -> bool:
     return mark is not None and mark.exists()
 
 
+def wait_to_be_compiled() -> bool:
+    """Whether they have not been compiled yet, and what is compiled can be kept."""
+    mark = ready_mark(COMPILED)
+    return mark is not None and not mark.exists()
+
+
 def are_loaded() -> bool:
     """Whether the planners that weigh costs answer from them."""
     return _found is not None
@@ -109,4 +116,6 @@ def compiled_moves(
 
 
 if __name__ == "__main__":  # in a process of its own, so that nobody waits for a compiler
+    if hasattr(os, "nice"):
+        os.nice(19)
     load_compiled_costs(compile_now=True)

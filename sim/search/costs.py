@@ -16,6 +16,7 @@ so that a state is (column, row, tick) and nothing more.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 from sim.actions import Preference
@@ -70,9 +71,18 @@ SHIFTS: Final[dict[Preference, Weights]] = {
 """What each preference adds to every charge."""
 
 
+TICKS_ALONE: Final = Weights(tick=1, sideways=0, diagonal=0, stay=0, fixed=0, mover=0, buffer=0, doubt=0)
+"""Charges by which a way costs its ticks and nothing else."""
+
+
 def weights(config: Config) -> Weights:
     """The charges that a configuration asks for."""
-    parts = (BALANCED[config.rules], *(SHIFTS[preference] for preference in config.preferences))
+    return _weights(config.rules, config.preferences, config.safety_buffer)
+
+
+@lru_cache(maxsize=256)
+def _weights(rules: int, preferences: tuple[Preference, ...], safety_buffer: int) -> Weights:
+    parts = (BALANCED[rules], *(SHIFTS[preference] for preference in preferences))
     return Weights(
         tick=sum(part.tick for part in parts),
         sideways=sum(part.sideways for part in parts),
@@ -80,6 +90,6 @@ def weights(config: Config) -> Weights:
         stay=sum(part.stay for part in parts),
         fixed=sum(part.fixed for part in parts),
         mover=sum(part.mover for part in parts),
-        buffer=config.safety_buffer + sum(part.buffer for part in parts),
+        buffer=safety_buffer + sum(part.buffer for part in parts),
         doubt=sum(part.doubt for part in parts),
     )

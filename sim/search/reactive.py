@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from sim.config import Config
 from sim.fast_replace import field_setter
@@ -28,6 +28,9 @@ from sim.types import MOVES, Move
 from sim.world import World
 from sim.world.boards import Boards
 from sim.world.grid import Board, Road, bits, board_of
+
+SPARE_TICKS: Final = (1, 5, 20)
+"""A way is looked for in so many ticks more than the rows take, in turn, before it is in the whole limit."""
 
 
 class ImpatientError(Exception):
@@ -125,7 +128,21 @@ class ReactiveSearch:
         return tuple(reversed(moves))
 
     def _layers(self, limit: int) -> list[Layer] | None:
-        """The states reached after 0, 1, ... ticks, up to the first in row 0; None if there is none."""
+        """The states reached after 0, 1, ... ticks, up to the first in row 0; None if there is none.
+
+        Looked for is a way in few ticks first: then most states are too late, and the first in row 0 is as
+        soon as it would be within the whole limit.
+        """
+        forecast = self.forecast
+        fewest = -(-(self.world.av // self.world.road.columns) // forecast.dynamics.rows_a_tick)
+        for within in (fewest + more for more in SPARE_TICKS if fewest + more < limit):
+            layers = self._layers_within(within)
+            if layers is not None:
+                return layers
+        return self._layers_within(limit)
+
+    def _layers_within(self, limit: int) -> list[Layer] | None:
+        """`_layers`, each of so many ticks looked for at once."""
         world = self.world
         number, column = divmod(world.av, world.road.columns)
         first = self._row(number, world.right, world.left, _marked(world.boards))

@@ -88,7 +88,7 @@ def test_questions_refusals_and_riddles_are_told_as_such(visit: Visit) -> None:
     visitor = visit()
     for text, told in (
         ("why did you do that?", "A question"),
-        ("find the hardest scenario", "not available yet"),
+        ("find the hardest scenario for DWA", "not available yet"),
         ("add five flibbers", "Not understood so far: “flibbers”"),
     ):
         visitor.words.fill(text)

@@ -101,7 +101,7 @@ def test_over_long_text_is_refused_in_words(visit: Visit) -> None:
 
 def test_an_unavailable_wish_is_refused_saying_so(visit: Visit) -> None:
     visitor = visit()
-    exchange = visitor.say("find the hardest scenario")
+    exchange = visitor.say("find the hardest scenario for DWA")
     assert exchange.get_attribute("data-standing") == "refused"
     expect(exchange.locator(".reply")).to_contain_text("not available yet")
 

@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from service.cli.main import cli
+from service.scenarios.file import read_scenario
 from sim.falsify import Case
 
 
@@ -31,8 +32,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_each_case_is_a_file_and_in_the_report(folder: Path) -> None:
-    cases = [Case.from_json(json.loads(path.read_bytes())) for path in (folder / "cases").iterdir()]
+    cases = [Case.from_json(json.loads(path.read_bytes())) for path in (folder / "cases").glob("*.json")]
     assert cases
+    named = [read_scenario(path.read_text()) for path in (folder / "cases").glob("*.yaml")]
+    assert {scenario.name for scenario in named} == {case.name for case in cases}
     assert {case.config.planner for case in cases} == {"priority"}
     report = json.loads((folder / "report.json").read_bytes())
     assert {each["case"]["name"] for each in report["result"]["cases"]} == {case.name for case in cases}
@@ -71,7 +74,7 @@ def test_what_cannot_be_done_is_said_before_it_begins(words: list[object], told:
 
 
 def test_a_file_that_is_no_case_is_refused(tmp_path: Path, folder: Path) -> None:
-    path = next((folder / "cases").iterdir())
+    path = next((folder / "cases").glob("*.json"))
     broken = tmp_path / "broken.json"
     for text in ("[]", "{}", "not JSON", path.read_text().replace("forward", "stay")):
         broken.write_text(text)

@@ -27,6 +27,7 @@ ROUTES = {
     "POST /api/v1/sessions",
     "GET /api/v1/sessions",
     "GET /api/v1/sessions/{session_id}",
+    "PATCH /api/v1/sessions/{session_id}",
     "DELETE /api/v1/sessions/{session_id}",
     "PATCH /api/v1/sessions/{session_id}/config",
     "POST /api/v1/sessions/{session_id}/commands",

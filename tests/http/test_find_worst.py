@@ -34,6 +34,7 @@ def bare(result: dict[str, Any]) -> dict[str, Any]:
     plain: dict[str, Any] = json.loads(json.dumps(result))
     for each in plain["cases"]:
         each.pop("link", None)
+        each.pop("scenario", None)
         each["case"]["why"] = ""
     return plain
 
@@ -138,6 +139,20 @@ async def test_a_cancel_ends_it() -> None:
         assert (await service.client.delete(path)).status_code == 204
         assert (await service.client.get(path)).json()["state"] == "cancelled"
         assert (await service.client.get(f"{path}/report")).status_code == 409
+
+
+async def test_how_it_stands_and_its_end_can_be_said() -> None:
+    Held.go_on = Event()
+    async for service in started(MemoryStore(), held=True):
+        path = await service.session(config=SMALL | {"planner": "priority", "vehicles": 3}, paused=True)
+        answer = await service.act(path, {"do": "find_worst", "runs": 400})
+        (one,) = answer.json()["evaluations"]
+        await until_done(service, one["links"]["self"], 20)
+        told = await service.act(path, {"do": "evaluation", "want": "progress"})
+        assert "20 of 400 runs. (The hardest of 400 worlds for Priority rules.)" in told.json()["reply"]
+        told = await service.act(path, {"do": "evaluation", "want": "cancel"})
+        assert told.json()["reply"].startswith("Cancelled after 20 of 400 runs.")
+        assert (await service.client.get(one["links"]["self"])).json()["state"] == "cancelled"
 
 
 @pytest.mark.parametrize(

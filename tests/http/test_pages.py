@@ -51,6 +51,19 @@ async def test_every_answer_is_guarded(service: Service, path: str) -> None:
     assert "frame-ancestors 'none'" in headers["content-security-policy"]
 
 
+async def test_only_the_embedded_run_may_be_framed(service: Service) -> None:
+    headers = (await service.client.get("/embed")).headers
+    policy = headers["content-security-policy"]
+    assert "frame-ancestors" not in policy
+    assert {"default-src 'self'", "base-uri 'none'", "form-action 'self'", "object-src 'none'"} == set(
+        policy.split("; ")
+    )
+    assert "x-frame-options" not in headers
+    html = (await service.client.get("/embed")).text
+    assert "src/embed.js" in html
+    assert not re.search(r"src/(core/socket|talk/commandBox|road/edit)", html)
+
+
 @pytest.mark.parametrize("path", ["/", "/docs"])
 async def test_nothing_is_fetched_from_elsewhere_or_inline(service: Service, path: str) -> None:
     html = (await service.client.get(path)).text

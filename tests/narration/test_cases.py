@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
 
-from service.evaluations.cases import case_link, explain_cases
+from service.evaluations.cases import case_link, case_scenario, explain_cases
 from service.narration import falsification_words
+from service.scenarios.begin import first_state
+from service.scenarios.file import read_scenario
 from sim.config import Config
 from sim.evaluate.executor import CancelledError
 from sim.falsify import Case, Falsification
 from sim.falsify.search import falsify
+from sim.falsify.world import drive
 from tests.support.broken_planner import registered
 
 CONFIG = Config(columns=6, rows=14)
@@ -75,6 +79,27 @@ def test_a_case_whose_road_is_drawn_otherwise_has_no_link() -> None:
         )
         is None
     )
+
+
+@pytest.mark.parametrize("planner", ["priority", "rules"])
+def test_a_case_is_a_scenario_file_that_begins_as_it_does(planner: str) -> None:
+    _, found = search(planner)
+    explain_cases(found, "en", lambda: False)
+    assert found["cases"]
+    for each in found["cases"]:
+        case = Case.from_json(each["case"])
+        scenario = read_scenario(json.dumps(each["scenario"]))
+        assert (scenario.name, scenario.planner) == (case.name, planner)
+        assert case.why.startswith(scenario.reason[:900])
+        state = first_state(scenario)
+        assert state.world.digest() == case.world.digest()
+        assert (end := drive(state)[-1].world).digest() == case.digest
+        assert end.outcome is case.outcome
+
+
+def test_a_planner_of_another_package_has_no_scenario_file() -> None:
+    _, found = search(registered())
+    assert case_scenario(Case.from_json(found["cases"][0]["case"])) is None
 
 
 def test_a_cancel_ends_the_telling() -> None:

@@ -406,3 +406,18 @@ async def test_the_file_is_plain_sqlite(tmp_path: Path) -> None:
         assert connection.execute("SELECT id, tick FROM sessions").fetchall() == [("a", 0)]
         assert connection.execute("SELECT sequence, tick FROM entries").fetchall() == [(1, 3)]
     connection.close()
+
+
+async def test_a_session_gets_another_name_and_loses_it(store: Store) -> None:
+    await store.create(record("a"))
+    assert await store.rename("a", "Rush hour")
+    found = await store.get("a")
+    assert found is not None
+    assert found.name == "Rush hour"
+    assert await store.rename("a", None)
+    found = await store.get("a")
+    assert found is not None
+    assert found.name is None
+    assert not await store.rename("b", "nobody")
+    await store.delete("a")
+    assert not await store.rename("a", "gone")

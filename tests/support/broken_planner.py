@@ -14,7 +14,7 @@ from sim.types import Move
 
 NAME: Final = "blind-in-crowds"
 NEAR_ROWS: Final = 4
-CROWD: Final = 8
+CROWD: Final = 14
 """Things in the rows ahead from which it goes blind; a default road seldom has as many."""
 
 

@@ -63,8 +63,8 @@ test("a film is of the latest ticks, or around the one that is looked at", () =>
   assert.deepEqual(stretch(300, 100), { from: 90, to: 110 });
   assert.deepEqual(stretch(300, 3), { from: 0, to: 20 });
   assert.deepEqual(stretch(300, 298), { from: 280, to: 300 });
-  const wish = { from: 0, to: 20, format: "gif", view: "road", side: 480 };
-  assert.match(videoPath("a", wish, 0.5), /film\?from=0&to=20&format=gif&fps=12&view=road&side=480$/);
+  const wish = { from: 0, to: 20, format: "gif", view: "road", side: 480, theme: "light", boxes: false };
+  assert.match(videoPath("a", wish, 0.5), /film\?from=0&to=20&format=gif&fps=12&view=road&side=480&theme=light&boxes=false$/);
   assert.match(videoPath("a", { ...wish, to: 160 }, 0.5), /fps=3&/);
 });
 

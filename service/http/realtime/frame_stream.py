@@ -30,7 +30,8 @@ from anyio import CapacityLimiter, to_thread
 from service.sessions.scheduler.playback_speed import MAX
 from service.sessions.session import Session
 from sim.plan import Decision
-from sim.render import encode, render
+from sim.render import Look, encode, render
+from sim.render.look import PLAIN
 from sim.state import SimState
 
 _LOG = structlog.get_logger(__name__)
@@ -53,6 +54,7 @@ class Wanted:
     view: View
     form: Form
     side: int
+    look: Look = PLAIN
 
 
 class Slot:
@@ -154,7 +156,15 @@ class Reel:
         """Runs in a thread; `draw_now` waits for it."""
         size = (self._wanted.side, self._wanted.side)
         world = None if before is None else before.world
-        picture = render(self._wanted.view, run, before=world, decision=decision, phase=phase, size=size)
+        picture = render(
+            self._wanted.view,
+            run,
+            before=world,
+            decision=decision,
+            phase=phase,
+            size=size,
+            look=self._wanted.look,
+        )
         return encode(picture, self._wanted.form)
 
 

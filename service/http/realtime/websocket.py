@@ -50,6 +50,7 @@ from service.sessions.session import Session
 from service.sessions.subscribers import MissedTicks, SessionDeleted, Subscriber, add_event_id
 from service.sessions.utterance import Outcome, Utterance
 from service.work.asker import CURRENT_ASKER, Asker
+from sim.render import Look
 
 _LOG = structlog.get_logger(__name__)
 
@@ -120,7 +121,8 @@ class _Screen:
             self._task = None
 
     async def _show(self, asked: Subscribe) -> None:
-        wanted = frame_stream.Wanted(asked.view, asked.frames, asked.side)
+        look = Look(asked.theme, asked.boxes, asked.figures)
+        wanted = frame_stream.Wanted(asked.view, asked.frames, asked.side, look)
         with suppress(WebSocketDisconnect, RuntimeError):  # the client has gone; the reader hears of it
             await self._context.reels.stream_to(
                 self._session, wanted, asked.fps, self._context.drawing, self._socket.send_bytes

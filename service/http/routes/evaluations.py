@@ -72,7 +72,6 @@ _REPORT_POLICY = {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
 }
 """A report holds its own styles, and loads nothing."""
-_TICKET = "Opens it without a key; part of `links.report`, for a day."
 _LOCATION = {"headers": {"Location": {"description": "Where it is.", "schema": {"type": "string"}}}}
 _FORMATS = {
     "html": "text/html; charset=utf-8",
@@ -183,7 +182,7 @@ async def read_report(
     here: Here,
     request: Request,
     format: Annotated[Literal["html", "markdown", "json", "csv"], Query()] = "html",
-    ticket: Annotated[str | None, Query(max_length=100, description=_TICKET)] = None,  # noqa: ARG001
+    ticket: Annotated[str | None, Query(max_length=100, include_in_schema=False)] = None,  # noqa: ARG001
 ) -> Response:
     """In plain language first, then plots and tables; `csv` has a line for each episode and planner.
 
@@ -285,7 +284,7 @@ async def _read_sentence(
     raise NotUnderstood(sentence, errors=[FieldProblem("text", sentence)], understood=[text])
 
 
-_BESIDE_FILE = ("text", "scenario", "config", "vary", "session", "road")
+_BESIDE_FILE = ("text", "find", "scenario", "config", "vary", "session", "road")
 """What a scenario file says itself."""
 
 

@@ -2,20 +2,34 @@
 
 from __future__ import annotations
 
-from fastapi import Request, Response
+from typing import Annotated, Any
+
+from fastapi import Body, Request, Response
 
 from service.contract import answers as schemas
+from service.contract import requests as bodies
 from service.http.conditional.etag import if_match
+from service.http.content_type import JSON_ONLY
 from service.http.deps import Here, TheSession
 from service.http.errors import problem_responses
 from service.http.pagination import After, Limit, cursor, page_json
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.session_json import session_json, summary_json
-from service.problems import Invalid, NotRestorable, NotSaved, UnknownSession
+from service.problems import (
+    ContentTooLarge,
+    Invalid,
+    Malformed,
+    NotRestorable,
+    NotSaved,
+    UnknownSession,
+    UnsupportedMediaType,
+)
 from service.sessions.preconditions import Preconditions
 
 router = api_router("sessions")
+
+_NAMES: dict[str, Any] = {"name": {"summary": "Another name", "value": {"name": "Rush hour"}}}
 
 
 @router.get(
@@ -40,6 +54,24 @@ async def list_sessions(here: Here, after: After = None, limit: Limit = 50) -> R
 )
 async def read_session(session: TheSession, here: Here) -> Response:
     """A session as it stands. One that is kept but not live is brought back, paused."""
+    value = session_json(session, here.interpreter.sentence_for(session.run.config, session.language))
+    return json_response(value, headers=etag(session.sequence))
+
+
+@router.patch(
+    "/sessions/{session_id}",
+    response_model=schemas.Session,
+    summary="Rename a session",
+    dependencies=[JSON_ONLY],
+    responses=problem_responses(
+        Malformed, UnknownSession, ContentTooLarge, UnsupportedMediaType, Invalid, NotRestorable, NotSaved
+    ),
+)
+async def rename_session(
+    body: Annotated[bodies.NewName, Body(openapi_examples=_NAMES)], session_id: str, here: Here
+) -> Response:
+    """Give it another name; `null` takes it away. The road, its log and its clock stay as they are."""
+    session = await here.manager.rename(session_id, body.name)
     value = session_json(session, here.interpreter.sentence_for(session.run.config, session.language))
     return json_response(value, headers=etag(session.sequence))
 

@@ -20,6 +20,7 @@ from service.http.routes.frame import View
 from service.http.validation import invalid
 from service.problems import FieldProblem, Invalid, NotAvailable, NotRestorable, UnknownSession
 from service.work.units import config_tick_units, move_units, state_tick_units
+from sim.render import Look, Theme
 from sim.render.video import FPS, VideoMissingError, frame_count, has_video, render_video
 from sim.session.timeline import Timeline
 from sim.state import SimState
@@ -68,6 +69,8 @@ async def read_video(
     fps: Annotated[int, Query(ge=1, le=60, description="Frames a second; of a GIF at most 50.")] = 10,
     view: Annotated[View, Query(description="The road as one sees it, or its plan.")] = "road",
     side: Annotated[int, Query(ge=64, le=1080, description="The longer side, in pixels.")] = 480,
+    theme: Annotated[Theme, Query(description="Colours by day, or dark ones.")] = "dark",
+    boxes: Annotated[bool, Query(description="Bounding boxes around what moves.")] = True,
 ) -> Response:
     """From one past tick to another in real time, gliding as on screen."""
     end = session.timeline.tick if last is None else last
@@ -75,7 +78,7 @@ async def read_video(
     most = here.settings.max_film_frames
     _check(session.timeline.tick, start, end, form, fps, most)
     timeline, headers = session.timeline.copy(), etag(session.sequence)
-    wanted = _Film(view, form, fps, side, most)
+    wanted = _Film(view, form, fps, side, most, Look(theme, boxes))
     units = _units(timeline, start, end, wanted)
     here.manager.work.check(units)
     # However short: the drawing library is not made for several threads.
@@ -93,6 +96,7 @@ class _Film:
     side: int
     most: int
     """frames"""
+    look: Look
 
 
 def _units(timeline: Timeline, start: int, end: int, film: _Film) -> int:
@@ -111,7 +115,9 @@ def _make(timeline: Timeline, start: int, end: int, film: _Film) -> bytes:
     runs = list(timeline.between(start, end + 1))
     _check_frames(runs, film.form, film.fps, film.side, film.most)
     size = (film.side, film.side)
-    return render_video(film.view, runs, film.form, fps=film.fps, size=size, decision_of=timeline.decided)
+    return render_video(
+        film.view, runs, film.form, fps=film.fps, size=size, decision_of=timeline.decided, look=film.look
+    )
 
 
 def _check(now: int, start: int, end: int, form: Format, fps: int, most: int) -> None:

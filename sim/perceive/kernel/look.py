@@ -118,11 +118,11 @@ def look(numbers, boards, tables, hidden, device, reports, count):
         outside = to_column < 0 or to_column >= columns or to_row < max(0, row - reach) or to_row > row
         if outside or (to_row == row and to_column == column):
             to_row, to_column = own, there
-        heading = 0
+        heading = np.int64(0)
         if kind >= _FIXED_KINDS:
             heading = np.int64(bit(boards, ROAD_RIGHT, size, cell))
             if np.int64(word >> _TOP) < wrong:
-                heading = 1 - heading
+                heading = np.int64(1) - heading
         count = _add(reports, count, kind, to_row * columns + to_column, heading, thing)
     return _alarm(numbers, tables, hidden, device, word_at(key, ALARMS), reports, count)
 
@@ -151,7 +151,7 @@ def _alarm(numbers, tables, hidden, device, key, reports, count):
         ahead, there = row - cell // columns, cell % columns
         if cell < 0 or hidden[ahead, there] or not tables.seen[device, ahead, there - column + columns - 1]:
             continue
-        heading = 0
+        heading = np.int64(0)
         if kind >= _FIXED_KINDS:
             heading = np.int64(word_at(key, _PLACES * kind + 2) & _ONE)
         count = _add(reports, count, kind, cell, heading, -1)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 from array import array
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from threading import Lock, Thread
 from typing import Any, Final
 
@@ -80,18 +80,23 @@ _belief = fast_constructor(
 )
 
 
-class _Codes(dict[str, tuple[int, int]]):
-    """The number of the kind and the number of a thing, by its id."""
+class _Known(dict[str, int]):
+    """Numbers by id, worked out when they are first asked for; `MAX_KNOWN` of them are kept."""
 
-    def __missing__(self, name: str) -> tuple[int, int]:
-        if len(self) > 65_536:
+    def __init__(self, number_of: Callable[[str], int]) -> None:
+        super().__init__()
+        self._number_of = number_of
+
+    def __missing__(self, name: str) -> int:
+        if len(self) >= MAX_KNOWN:
             self.clear()
-        code = self[name] = NUMBER[kind_of(name)], int(name.rpartition("-")[2])
-        return code
+        number = self[name] = self._number_of(name)
+        return number
 
 
-_codes: Final = _Codes()
-_code_of: Final = _codes.__getitem__
+MAX_KNOWN: Final = 65_536
+_kind_of: Final = _Known(lambda name: NUMBER[kind_of(name)]).__getitem__
+_number_of: Final = _Known(lambda name: int(name.rpartition("-")[2])).__getitem__
 _setups: dict[int, tuple[Config, Road, tuple[SensorSpec, ...], Setup]] = {}
 
 
@@ -242,7 +247,6 @@ def _call(
     """Calls the kernel; returns what is shown, its boards, the belief, and the likelihoods."""
     road = world.road
     cells, things, devices = road.columns * road.rows, len(names), len(used.tables.devices)
-    codes = [*map(_code_of, names)]
     numbers = array(
         "q",
         [
@@ -261,8 +265,8 @@ def _call(
             len(followed[0]) // 3,
             *world.hazards,
             *world.movers,
-            *[kind for kind, _ in codes],
-            *[number for _, number in codes],
+            *map(_kind_of, names),
+            *map(_number_of, names),
             *world.avs,
             *followed[0],
         ],

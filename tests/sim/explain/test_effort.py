@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import pytest
+
 from sim.config import Config
-from sim.explain import why, why_not
+from sim.explain import effort, why, why_not
 from sim.explain.effort import FOR_CAUSES, MORE, Effort
+from sim.search.compiled_costs import forget_compiled_costs
 from sim.session.timeline import Timeline
 from sim.types import Move
 
@@ -18,6 +21,13 @@ def crowded(planner: str) -> Timeline:
     for _ in range(4):
         timeline.advance()
     return timeline
+
+
+@pytest.fixture(autouse=True)
+def _searching(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Decisions are searched for, so that there is something to leave untried."""
+    forget_compiled_costs()
+    monkeypatch.setattr(effort, "load_compiled_costs", lambda: False)
 
 
 def test_an_answer_says_what_it_left_untried() -> None:

@@ -16,6 +16,7 @@ from sim.decide import decide
 from sim.forecast import Forecast
 from sim.plan import Decision, planner_named
 from sim.rules.versions import RULES
+from sim.search.compiled_costs import forget_compiled_costs
 from sim.search.costs import BALANCED, weights
 from sim.search.reachability import reachability
 from sim.state import SimState
@@ -41,6 +42,12 @@ REACTIONS = st.fixed_dictionaries(
 MOVES = list(Move)
 MET = road(".....", ".....", ".....", ">A...")
 """A mover that enters the vehicle's cell, unless it brakes."""
+
+
+@pytest.fixture(autouse=True)
+def _searched() -> None:
+    """The planners search, whatever another test has loaded."""
+    forget_compiled_costs()
 
 
 def decision(state: SimState, planner: str) -> Decision:

@@ -19,6 +19,7 @@ import { t } from "./texts.js";
  * @property {boolean} [repeats]  whether a key held down does it again and again
  * @property {boolean} [button]  whether it stands among the clock's buttons
  * @property {(state: State) => Doing | null} now  what it does in this state; null where it makes no sense
+ * @property {(name: string) => Doing} [named]  what it does with the name that is said with it
  */
 
 /**

@@ -20,7 +20,7 @@ export class Refused extends Error {
 
 /**
  * @typedef {object} Asking
- * @property {"GET" | "POST" | "DELETE"} [method]
+ * @property {"GET" | "POST" | "PATCH" | "DELETE"} [method]
  * @property {unknown} [body]  sent as JSON
  * @property {AbortSignal} [signal]  an abort is thrown on as it is
  * @property {typeof fetch} [http]

@@ -13,6 +13,8 @@ import { hasText, t } from "./texts.js";
 const OF_THE_SERVICE = new Set(["clock", "pause", "step", "undo"]);
 /** Between the phrases of one act. */
 const BETWEEN = " | ";
+/** Where a name stands in a phrase. */
+const MARK = "\u0000";
 
 /**
  * The act that a sentence names, where it makes sense now.
@@ -26,6 +28,8 @@ export function spokenAct(said, commands, state) {
   if (wanted === "") return null;
   for (const act of commands) {
     if (OF_THE_SERVICE.has(act.name)) continue;
+    const name = act.named && nameSaid(said, act.name);
+    if (act.named && name) return { act, doing: act.named(name) };
     const phrases = phrasesOf(act).map(plainWords);
     const doing = act.now(state);
     if (doing && (phrases.includes(wanted) || plainWords(doing.label) === wanted)) return { act, doing };
@@ -37,6 +41,20 @@ export function spokenAct(said, commands, state) {
 export function phrasesOf({ name }) {
   const key = `acts.${name}`;
   return hasText(key) ? t(`acts.${name}`).split(BETWEEN) : [];
+}
+
+/** The name that a sentence gives an act: what stands where a phrase of `acts_named` has `{name}`. @param {string} said @param {string} act */
+function nameSaid(said, act) {
+  const plain = said.trim().replace(/[.!]$/, "");
+  for (const phrase of t(`acts_named.${act}`, { name: MARK }).split(BETWEEN)) {
+    const [begin, end] = phrase.split(MARK);
+    const lower = plain.toLocaleLowerCase();
+    if (lower.startsWith(begin.toLocaleLowerCase()) && lower.endsWith(end.toLocaleLowerCase())) {
+      const name = plain.slice(begin.length, plain.length - end.length).trim().replace(/^["“„'](.*)["”“']$/, "$1");
+      if (name !== "") return name;
+    }
+  }
+  return null;
 }
 
 /** Without what is said for politeness or written for the eye. @param {string} text */

@@ -123,3 +123,8 @@ export function watchPreferences(changed) {
 function darkStyle() {
   return /** @type {HTMLLinkElement | null} */ (document.getElementById("dark"));
 }
+
+/** The colours that are seen: those chosen, else the system's. @returns {"light" | "dark"} */
+export function themeSeen() {
+  return theme() || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+}

@@ -805,6 +805,12 @@ export interface NewFork {
   paused?: boolean | null;
 }
 
+/** What a session is called from now on. */
+export interface NewName {
+  /** Null takes the name away. */
+  name: string | null;
+}
+
 /** How a session begins. Everything may be left out; without a seed one is drawn and told. */
 export interface NewSession {
   name?: string | null;
@@ -1003,6 +1009,8 @@ export interface ProblemDocument {
   pending?: PendingQuestion | null;
   /** The session's sequence number, if it was changed meanwhile. */
   sequence?: number | null;
+  /** How an evaluation stands that has no report. */
+  state?: "queued" | "running" | "done" | "failed" | "cancelled" | null;
 }
 
 /** Why a `command` or `actions` was refused, under the id that was sent with it. */
@@ -1485,6 +1493,11 @@ export interface Subscribe {
   view?: "road" | "schematic";
   fps?: number;
   side?: number;
+  theme?: "dark" | "light";
+  /** Bounding boxes around what moves. */
+  boxes?: boolean;
+  /** The strip of figures along the upper edge. */
+  figures?: boolean;
 }
 
 /** The pictures that follow as binary messages. */

@@ -8,6 +8,7 @@
 
 import { html } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
+import { themeSeen } from "../core/theme.js";
 import { createSlot, find } from "../ui/slot.js";
 
 /** @import { Page } from "../core/page.js" */
@@ -44,6 +45,7 @@ export function createServerVideo(host, page) {
   let wanted = 0;
   let come = false;
   let decoding = false;
+  /** The colours that were asked for. */ let drawnIn = themeSeen();
   /** @type {any} */ let patience = null;
 
   page.onPicture(async (data) => {
@@ -85,12 +87,14 @@ export function createServerVideo(host, page) {
       const live = connection.phase === "live";
       const want = views.service && views.road && live ? side() : 0;
       if (wanted && !come && fault !== null && fault !== before.fault) return giveUp(fault);
-      if (want !== wanted || (want && connection !== before.connection)) {
+      const otherwise = connection !== before.connection || views.boxes !== before.views.boxes || themeSeen() !== drawnIn;
+      if (want !== wanted || (want && otherwise)) {
+        drawnIn = themeSeen();
         clearTimeout(patience);
         wanted = want;
         come = false;
         if (want) {
-          page.send({ type: "subscribe", frames: "webp", view: "road", fps: FPS, side: want });
+          page.send({ type: "subscribe", frames: "webp", view: "road", fps: FPS, side: want, theme: themeSeen(), boxes: views.boxes, figures: false });
           patience = setTimeout(() => giveUp(t("road.no_pictures")), PATIENCE_MS);
         } else if (live) page.send({ type: "unsubscribe" });
       }

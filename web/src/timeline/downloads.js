@@ -12,6 +12,8 @@ import { decimalText, t } from "../core/texts.js";
  * @property {"gif" | "mp4"} format
  * @property {"road" | "schematic"} view
  * @property {number} side
+ * @property {"light" | "dark"} theme  the colours of the road
+ * @property {boolean} boxes  whether bounding boxes are drawn
  */
 
 /** Frames a second, so that a longer stretch stays within what the service makes. */
@@ -23,10 +25,10 @@ const FRAMES = { most: 240, fastest: 12, slowest: 2 };
  * @param {VideoWish} wish
  * @param {number} stepS  seconds of a tick
  */
-export function videoPath(session, { from, to, format, view, side }, stepS) {
+export function videoPath(session, { from, to, format, view, side, theme, boxes }, stepS) {
   const seconds = Math.max(stepS, (to - from) * stepS);
   const fps = Math.max(FRAMES.slowest, Math.min(FRAMES.fastest, Math.floor(FRAMES.most / seconds)));
-  const query = new URLSearchParams({ from: `${from}`, to: `${to}`, format, fps: `${fps}`, view, side: `${side}` });
+  const query = new URLSearchParams({ from: `${from}`, to: `${to}`, format, fps: `${fps}`, view, side: `${side}`, theme, boxes: `${boxes}` });
   return `${sessionPath(session)}/film?${query}`;
 }
 

@@ -18,10 +18,10 @@ import { forks } from "./links.js";
 /** What stands in the session's menu, in this order; null is a line. */
 const MENU = [
   "share", "embed", "fork", "open-fork", "rewind", "origin", null, "save-moment", "moments", null,
-  "picture", "video", "recording", "open-recording", null, "quiz", "settings", null, "gallery", "sessions", "new-session",
+  "picture", "video", "recording", "open-recording", null, "quiz", "settings", null, "gallery", "sessions", "rename", "new-session",
 ];
 
-/** @typedef {{link: (url: string, what: string) => void, embed: (snippet: string, what: string) => void, moments: (naming: boolean) => void, sessions: () => void}} Dialogs */
+/** @typedef {{link: (url: string, what: string) => void, embed: (snippet: string, what: string) => void, moments: (naming: boolean) => void, sessions: (naming?: string | null) => void}} Dialogs */
 
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createSessionMenu(host, page) {
@@ -34,7 +34,7 @@ export function createSessionMenu(host, page) {
   const moments = onDemand(page, () => import("./shareMoment.js"));
 
   return {
-    commands: [...momentCommands(page, moments, dialogs), ...forkCommands(), ...keptCommands(page, dialogs)],
+    commands: [...momentCommands(page, moments, dialogs), ...forkCommands(), ...keptCommands(page, dialogs), renameCommand(moments, dialogs)],
 
     update({ session }, before) {
       if (session !== before.session) origin(originLink(session));
@@ -105,6 +105,20 @@ function forkCommands() {
       },
     },
   ];
+}
+
+/**
+ * @param {(use: (module: typeof import("./shareMoment.js")) => void) => void} moments
+ * @param {(use: (dialogs: Dialogs) => void) => void} dialogs
+ * @returns {Command}
+ */
+function renameCommand(moments, dialogs) {
+  return {
+    name: "rename",
+    group: t("groups.session"),
+    now: ({ session }) => session === null ? null : { label: t("sessions.rename_here"), run: () => dialogs(({ sessions }) => sessions(session)) },
+    named: (name) => ({ label: t("sessions.rename_to", { name }), run: (page) => moments((made) => void made.renameHere(page, name)) }),
+  };
 }
 
 /** @type {ReturnType<typeof onDemand<() => void>> | null} */ let gallery = null;

@@ -8,6 +8,7 @@ import { newestOnly } from "../core/latest.js";
 import { SESSIONS_PATH, sessionPath } from "../core/protocol.js";
 import { dateText, t } from "../core/texts.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
+import { renameSession } from "./shareMoment.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { SessionPage, SessionSummary } from "../core/wire.js" */
@@ -21,12 +22,13 @@ const PAGE_SESSIONS = 20;
  * @property {boolean} more
  * @property {{text: string, bad: boolean}} note
  * @property {{id: string, busy: boolean} | null} deleting  the session that is about to be deleted, if that is confirmed
+ * @property {string | null} naming  the session that is given another name
  */
 
 /** @type {Shown} */
-const NOTHING = { sessions: [], after: null, more: false, note: { text: "", bad: false }, deleting: null };
+const NOTHING = { sessions: [], after: null, more: false, note: { text: "", bad: false }, deleting: null, naming: null };
 
-/** @param {Page} page @returns {() => void} opens it */
+/** @param {Page} page @returns {(naming?: string | null) => Promise<void>} opens it, with the name of a session to be changed */
 export function createSessionsDialog(page) {
   const dialog = makeDialog(t("sessions.title"));
   const body = dialogSlot(dialog);
@@ -44,6 +46,11 @@ export function createSessionsDialog(page) {
       focus(id === null ? "[data-do=fresh]" : "[data-do=keep]");
     },
     remove: (/** @type {SessionSummary} */ session) => void remove(session),
+    naming(/** @type {string | null} */ id) {
+      show({ naming: id });
+      focus(id === null ? "[data-do=fresh]" : "[data-do=name] input");
+    },
+    rename: (/** @type {SessionSummary} */ session, /** @type {string} */ name) => void renamed(session, name, shown.sessions).then(show).then(() => shown.naming === null && focus("[data-do=fresh]")),
   };
 
   /** @param {Partial<Shown>} change */
@@ -82,11 +89,23 @@ export function createSessionsDialog(page) {
     }
   }
 
-  return () => {
+  return async (naming = null) => {
     show(NOTHING);
     dialog.showModal();
-    void next();
+    await next();
+    if (naming !== null) does.naming(naming);
   };
+}
+
+/** What is shown once a session has another name, or has been refused it. @param {SessionSummary} session @param {string} wanted @param {SessionSummary[]} all @returns {Promise<Partial<Shown>>} */
+async function renamed(session, wanted, all) {
+  try {
+    const name = await renameSession(session.id, wanted);
+    const sessions = all.map((each) => (each.id === session.id ? { ...each, name } : each));
+    return { sessions, naming: null, note: { text: t("sessions.renamed", { name: nameOf({ ...session, name }) }), bad: false } };
+  } catch (error) {
+    return { note: { text: errorText(error), bad: true } };
+  }
 }
 
 /** @param {SessionSummary} session */
@@ -101,13 +120,15 @@ function nameOf({ id, name }) {
  * @property {() => void} fresh
  * @property {(id: string | null) => void} confirm
  * @property {(session: SessionSummary) => void} remove
+ * @property {(id: string | null) => void} naming
+ * @property {(session: SessionSummary, name: string) => void} rename
  */
 
 /** @param {Shown} shown @param {string | null} here @param {Does} does */
-function content({ sessions, more, note, deleting }, here, does) {
+function content({ sessions, more, note, deleting, naming }, here, does) {
   return html`<p class="dialog-note" role="status" data-tone=${note.bad ? "bad" : "plain"}>${note.text}</p>
     <ul class="rows">
-      ${repeat(sessions, ({ id }) => id, (session) => row(session, session.id === here, deleting?.id === session.id ? deleting : null, does))}
+      ${repeat(sessions, ({ id }) => id, (session) => row(session, session.id === here, deleting?.id === session.id ? deleting : null, naming === session.id, does))}
     </ul>
     <div class="form-end">
       ${more ? html`<button class="button small" type="button" @click=${does.more}>${t("sessions.more")}</button>` : nothing}
@@ -115,13 +136,14 @@ function content({ sessions, more, note, deleting }, here, does) {
     </div>`;
 }
 
-/** @param {SessionSummary} session @param {boolean} here @param {{busy: boolean} | null} deleting @param {Does} does */
-function row(session, here, deleting, does) {
+/** @param {SessionSummary} session @param {boolean} here @param {{busy: boolean} | null} deleting @param {boolean} naming @param {Does} does */
+function row(session, here, deleting, naming, does) {
   const { id, tick, seed, created_at: created } = session;
   const name = nameOf(session);
   const when = dateText(new Date(created));
   // A picture wakes no session that sleeps.
   const picture = session.live ? html`<img class="row-thumb" src="${sessionPath(id)}/frame?format=webp" alt="" loading="lazy" width="48" height="48">` : html`<span class="row-thumb"></span>`;
+  if (naming) return html`<li class="row" data-session=${id}>${picture}${namingForm(session, does)}</li>`;
   return html`<li class="row" data-session=${id}>
     ${picture}
     <a class="row-name" href=${hashOf(id)} aria-current=${here ? "true" : nothing} @click=${does.close}>${name}${here ? html`<span class="row-here">${t("sessions.here")}</span>` : nothing}</a>
@@ -130,7 +152,22 @@ function row(session, here, deleting, does) {
       deleting
         ? html`<button class="button small" type="button" data-do="keep" @click=${() => does.confirm(null)}>${t("sessions.keep")}</button>
             <button class="button small danger" type="button" aria-label=${t("sessions.delete_sure_named", { name })} ?disabled=${deleting.busy} @click=${() => does.remove(session)}>${t("sessions.delete_sure")}</button>`
-        : html`<button class="button small" type="button" aria-label=${t("sessions.delete_named", { name })} @click=${() => does.confirm(id)}>${t("sessions.delete")}</button>`
+        : html`<button class="button small" type="button" data-do="rename" aria-label=${t("sessions.rename_named", { name })} @click=${() => does.naming(id)}>${t("sessions.rename")}</button>
+            <button class="button small" type="button" aria-label=${t("sessions.delete_named", { name })} @click=${() => does.confirm(id)}>${t("sessions.delete")}</button>`
     }</span>
   </li>`;
+}
+
+/** @param {SessionSummary} session @param {Does} does */
+function namingForm(session, { naming, rename }) {
+  /** @param {SubmitEvent} event */
+  const submit = (event) => {
+    event.preventDefault();
+    rename(session, String(new FormData(/** @type {HTMLFormElement} */ (event.currentTarget)).get("name") ?? "").trim());
+  };
+  return html`<form class="form-line row-naming" data-do="name" @submit=${submit}>
+    <input class="field" name="name" maxlength="80" aria-label=${t("sessions.new_name")} .value=${session.name ?? ""}>
+    <button class="button small strong" type="submit">${t("sessions.rename")}</button>
+    <button class="button small" type="button" @click=${() => naming(null)}>${t("sessions.keep_name")}</button>
+  </form>`;
 }

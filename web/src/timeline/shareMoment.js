@@ -80,3 +80,21 @@ export function rewindHere(page) {
     page.tell({ text: t("session.rewound", { tick }), offer: { label: t("clock.undo"), run: undo } });
   });
 }
+
+/**
+ * Gives a session another name; an empty one takes it away. Throws `Refused`.
+ * @param {string} session
+ * @param {string} wanted
+ * @returns {Promise<string | null>}
+ */
+export async function renameSession(session, wanted) {
+  const { name } = await askJson(sessionPath(session), { method: "PATCH", body: { name: wanted === "" ? null : wanted } });
+  return name;
+}
+
+/** The session that is seen gets a name, and that is told. @param {Page} page @param {string} wanted */
+export function renameHere(page, wanted) {
+  return doing(page, async (session) => {
+    page.tell({ text: t("sessions.renamed", { name: (await renameSession(session, wanted)) ?? t("sessions.session", { id: session.slice(0, 6) }) }) });
+  });
+}

@@ -4,6 +4,7 @@
 import { html, live, nothing } from "../../vendor/lit-html.js";
 import { errorText } from "../core/http.js";
 import { decimalText, t } from "../core/texts.js";
+import { themeSeen } from "../core/theme.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
 import { fetched, fileName, save, sizeText, stretch, videoPath } from "./downloads.js";
 
@@ -30,7 +31,7 @@ export function createVideoDialog(page) {
   const dialog = makeDialog(t("video.title"));
   const body = dialogSlot(dialog);
   /** @type {Shown} */
-  let shown = { wish: { from: 0, to: 0, format: "gif", view: "road", side: 480 }, now: 0, stepS: 0.5, note: { text: "", bad: false }, busy: false };
+  let shown = { wish: { from: 0, to: 0, format: "gif", view: "road", side: 480, theme: themeSeen(), boxes: false }, now: 0, stepS: 0.5, note: { text: "", bad: false }, busy: false };
   /** @type {AbortController | null} */ let making = null;
   dialog.addEventListener("close", () => making?.abort());
 
@@ -60,7 +61,7 @@ export function createVideoDialog(page) {
     const clock = setInterval(drawing, 1_000);
     show({ busy: true });
     try {
-      const data = await fetched(videoPath(session, wish, stepS), own.signal);
+      const data = await fetched(videoPath(session, { ...wish, theme: themeSeen(), boxes: page.state().views.boxes }, stepS), own.signal);
       save(data, fileName(session, `${wish.from}-${wish.to}`, wish.format));
       tell(t("video.saved", { size: sizeText(data.size) }));
     } catch (error) {
