@@ -178,7 +178,7 @@ def _what_if(start: int, end: int, change: list[dict[str, Any]], *, past: bool =
 def _had_moved(
     lattice: Lattice, whole: tuple[int, int], change: list[dict[str, Any]]
 ) -> dict[str, Any] | None:
-    """The question about another move in the past, where one is supposed to have been made: "if you had …"."""
+    """The question about another move in the past, where one is supposed to have been made."""
     if len(change) != 1 or change[0].keys() != {"do", "move"} or change[0]["do"] != DRIVE:
         return None
     if all(edge.concept != HAD_MOVED for edge in lattice.between(*whole)):
