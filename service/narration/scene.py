@@ -142,7 +142,7 @@ class _Told:
 
     def on_side(self, side: str, kind: Kind | None) -> str:
         """What is on one side, the nearest first, and what of it heads for the ego's lane."""
-        things = sorted(self._scene.of(kind), key=_far)
+        things = sorted(self._scene.of(kind), key=lambda thing: (thing.rows < 0, _far(thing)))
         if not things:
             noun = self._noun(kind, 2) if kind is not None else self._say("any_thing")
             return self._say("side_none", side, things=noun)
