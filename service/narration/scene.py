@@ -44,9 +44,10 @@ class Scenes:
         scene = describe_percept(sense(run)[0], run.config)
         wrong = misperception(run).of(kind)
         counting = asked.supposes == "number"
-        if asked.supposes in SIDES:
-            scene = on_side(scene, asked.supposes)
-            told = _Told(self._sayings, run, scene).on_side(asked.supposes, kind)
+        side = asked.supposes
+        if side is not None and side in SIDES:
+            scene = on_side(scene, side)
+            told = _Told(self._sayings, run, scene).on_side(side, kind)
         elif asked.ask.count is not None and kind is not None:
             told = _Told(self._sayings, run, scene).nearest(kind)
         else:
