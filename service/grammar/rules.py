@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 
 from pydantic import ValidationError
 
-from service.actions import Action, Resume, dump, load
+from service.actions import Action, Pause, Resume, dump, load
 from service.grammar.accounting import WHOLE
 from service.grammar.clause_patterns import Sentence
 from service.grammar.lattice import GLUE, Edge, Lattice
@@ -217,6 +217,9 @@ class _Reading:
         found = [made for body in bodies for made in self._made(body, rest.parts, keeps=True)]
         if rest.start < rest.end:
             bodies = self._plainly(rest.start, rest.end)
+            if any(value["fact"] == "after" for _, value in self._at(UNTIL, rest.end)):
+                # "Pause for 3 seconds" says how long the pause lasts, and not how long the rule stands.
+                bodies = [body for body in bodies if not isinstance(body[-1], Pause)]
             found += [made for body in bodies for made in self._made(body, rest.parts, keeps=False)]
         return found
 

@@ -18,6 +18,7 @@ from service.grammar.paths import SEPARATOR
 from service.grammar.sentence_openings import IF, TEACH, THEN_WHAT, WHAT_IF, WITHOUT, Beginnings
 
 HAD_MOVED = "had_moved"
+DRIVE = "drive"
 HAD_BEEN = "had_been"
 """Concept of words that suppose something of a past moment: "had not been there"."""
 MEANS = "means"
@@ -103,7 +104,11 @@ def _before_then_what(lattice: Lattice, start: int, end: int) -> int:
     """Where a sentence ends that is followed by "what would have happened?", which says nothing more."""
     for at in range(start + 1, end):
         asked = _longest(lattice, at, THEN_WHAT)
-        if asked is not None and _past_marks(lattice, asked.end, end) >= end and _ends_part(lattice, at - 1, at):
+        if (
+            asked is not None
+            and _past_marks(lattice, asked.end, end) >= end
+            and _ends_part(lattice, at - 1, at)
+        ):
             return at - 1
     return end
 
@@ -155,6 +160,8 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
         found = divided.failed or _actions(divided, first, last, NO_CHANGE)
         if not isinstance(found, Fragment):
             past = _is_past(lattice, (first, last), (start, end))
+            if (moved := _had_moved(lattice, (start, end), found)) is not None:
+                return Clause(begin, stop, Filled(_FRAME, []), [moved])
             return _what_if(begin, stop, found, past=past)
         failed = failed or found
         if last == end and cut is None:
@@ -166,6 +173,17 @@ def _what_if(start: int, end: int, change: list[dict[str, Any]], *, past: bool =
     """`past`: whether it is asked of the latest decision rather than of the present."""
     asked = {"do": "ask", "about": "what_if", "change": change} | ({"ticks": 1} if past else {})
     return Clause(start, end, Filled(_FRAME, []), [asked])
+
+
+def _had_moved(
+    lattice: Lattice, whole: tuple[int, int], change: list[dict[str, Any]]
+) -> dict[str, Any] | None:
+    """The question about another move in the past, where one is supposed to have been made."""
+    if len(change) != 1 or change[0].keys() != {"do", "move"} or change[0]["do"] != DRIVE:
+        return None
+    if all(edge.concept != HAD_MOVED for edge in lattice.between(*whole)):
+        return None
+    return {"do": "ask", "about": WHAT_IF, "move": change[0]["move"]}
 
 
 def _is_past(lattice: Lattice, supposed: tuple[int, int], whole: tuple[int, int]) -> bool:

@@ -94,8 +94,8 @@ class Planners:
         tick = _begins(ask, timeline)
         here = planners_here(timeline, ask.planners, tick=tick)
         parting = here.decided(here.others[0]) if len(here.others) == 1 else None
-        first = [Part(0, self._agreed(here, asked)), Part(0, self._from(tick, timeline))]
-        told = self._here(here, first, parting, best=ask.what == "compare", past=tick is not None)
+        opening = [Part(0, self._agreed(here, asked)), Part(0, self._from(tick, timeline))]
+        told = self._here(here, opening, parting, best=ask.what == "compare", past=tick is not None)
         values = planners_json(here)
         if parting is not None:
             texts = self._options.texts(parting.own), self._options.texts(parting.other)

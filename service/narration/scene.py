@@ -44,9 +44,10 @@ class Scenes:
         scene = describe_percept(sense(run)[0], run.config)
         wrong = misperception(run).of(kind)
         counting = asked.supposes == "number"
-        if asked.supposes in SIDES:
-            scene = on_side(scene, asked.supposes)
-            told = _Told(self._sayings, run, scene).on_side(asked.supposes, kind)
+        side = asked.supposes
+        if side is not None and side in SIDES:
+            scene = on_side(scene, side)
+            told = _Told(self._sayings, run, scene).on_side(side, kind)
         elif asked.ask.count is not None and kind is not None:
             told = _Told(self._sayings, run, scene).nearest(kind)
         else:
@@ -142,7 +143,7 @@ class _Told:
 
     def on_side(self, side: str, kind: Kind | None) -> str:
         """What is on one side, the nearest first, and what of it heads for the ego's lane."""
-        things = sorted(self._scene.of(kind), key=_far)
+        things = sorted(self._scene.of(kind), key=lambda thing: (thing.rows < 0, _far(thing)))
         if not things:
             noun = self._noun(kind, 2) if kind is not None else self._say("any_thing")
             return self._say("side_none", side, things=noun)

@@ -42,7 +42,7 @@ def _read(hint: Any, value: Any) -> Any:
         return _read(get_args(hint)[0], value)
     choices = list(_choices(hint))
     if isinstance(value, Mapping):
-        kind: type[Any] = next(each for each in choices if is_dataclass(each) and _does(each, value))
+        kind: Any = next(each for each in choices if is_dataclass(each) and _does(each, value))
         hints = _hints(kind)
         return kind(**{name: _read(hints[name], each) for name, each in value.items()})
     if isinstance(value, list | tuple):

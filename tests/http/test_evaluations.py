@@ -390,3 +390,12 @@ async def test_a_scenario_file_is_evaluated_and_its_flaws_are_named(running: Ser
         answer = await running.client.post(ALL, json=wrong)
         assert answer.status_code == 422, answer.text
         assert field in [each["field"] for each in answer.json()["errors"]]
+
+
+async def test_a_search_for_failures_is_asked_about_and_cancelled_in_the_same_way(held: Service) -> None:
+    path = await held.session()
+    assert (await held.say(path, "find the hardest scenario")).status_code == 200
+    reply = (await held.say(path, "how is the search going?")).json()["reply"]
+    assert "%" in reply or "waits" in reply
+    reply = (await held.say(path, "cancel the search")).json()["reply"]
+    assert reply.startswith("Cancelled after")
