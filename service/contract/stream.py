@@ -162,6 +162,11 @@ class SubscribedMessage(Message):
     fps: int
     side: int
     """Pixels of the longer side."""
+    theme: Literal["dark", "light"] = "dark"
+    boxes: bool = True
+    """Bounding boxes around what moves."""
+    figures: bool = True
+    """The strip of figures along the upper edge."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

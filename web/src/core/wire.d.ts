@@ -1508,6 +1508,11 @@ export interface SubscribedMessage {
   fps: number;
   /** Pixels of the longer side. */
   side: number;
+  theme?: "dark" | "light";
+  /** Bounding boxes around what moves. */
+  boxes?: boolean;
+  /** The strip of figures along the upper edge. */
+  figures?: boolean;
 }
 
 /** Let two things change places. */
