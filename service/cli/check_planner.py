@@ -11,8 +11,8 @@ import typer
 
 from service.cli.terminal import plain
 from sim import planner_names
+from sim.evaluate.metamorphic import RELATIONS, ROADS, check_relations
 from sim.plan.conformance import MAX_TOLD, Defect, Report, check, check_apart, find_planner, name_conflicts
-from sim.plan.metamorphic import RELATIONS, ROADS, check_relations
 
 DEFECTS, UNTRIED = 1, 2
 """Exit statuses."""

@@ -10,10 +10,10 @@ from typer.testing import CliRunner
 
 from service.cli.main import cli
 from sim.config import Config
+from sim.evaluate.metamorphic import RELATIONS, check_relations, drive_of, mirrored, mirrored_move
 from sim.forecast import Forecast
 from sim.plan import Decision
 from sim.plan.astar import AStarPlanner
-from sim.plan.metamorphic import RELATIONS, check_relations, drive_of, mirrored, mirrored_move
 from sim.plan.registry import planner_named, register
 from sim.state import SimState
 from sim.types import Kind, Move, kind_of
