@@ -15,7 +15,7 @@ from typing import Any
 from service.actions.table import verbs_where
 from service.grammar.clause import Clause
 from service.grammar.lattice import Lattice
-from service.grammar.noun_phrases import Amount
+from service.grammar.noun_phrases import WITHOUT, Amount
 
 _IN_ORDER = "then"
 """Separator that says that one comes after the other."""
@@ -167,6 +167,10 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
         if _says_how_many(clause, lattice):
             continue
         frame, slots = clause.filled.frame, clause.filled.slots
+        if not at and any(edge.concept == WITHOUT for edge in slots):
+            for other in clauses[1:]:  # "without cars, stop" may be a condition
+                if other.actions and not any(_is_of_things(action) for action in other.actions):
+                    return Contradiction((other, clause))
         verbs = {str(template["do"]) for template in frame.actions if isinstance(template, dict)}
         verb = "add" if frame.leaves_out else min(verbs, default="")
         kinds = {edge.sense.value.of for edge in slots if isinstance(edge.sense.value, Amount)}
@@ -206,6 +210,11 @@ def _touches(action: Mapping[str, Any], kinds: Set[object]) -> bool:
     told = [action, *(each for each in action.values() if isinstance(each, Mapping))]
     said = {each["kind"] for each in told if "kind" in each}
     return bool(said & (kinds | {_EVERYTHING})) or (not said and action["do"] in _LOSING)
+
+
+def _is_of_things(action: Mapping[str, Any]) -> bool:
+    """Whether an action is about things on the road, of which some may be left out."""
+    return "kind" in action or action["do"] in ("scenario", "evaluate")
 
 
 def _none_of(clauses: Sequence[Clause]) -> Contradiction | None:

@@ -38,6 +38,8 @@ SETTINGS: dict[str, tuple[Any, ...]] = {
 }
 LAYOUTS = ("walls", "narrows", "dead_ends", "crossing", "maze")
 WISHES = ("avoid_potholes", "smooth_ride", "fastest", "cautious", "balanced")
+JOBS = frozenset(("evaluate", "evaluation", "find_worst"))
+"""What works in the background, in processes of its own."""
 STAYING = frozenset(("resume",))
 """What lets time pass by itself, and is left out where the clock is a real one."""
 
@@ -250,8 +252,13 @@ class Planned:
 
 @cache
 def sentences() -> tuple[str, ...]:
-    """The labelled sentences of the language's own tests."""
-    return tuple(json.loads(line)["text"] for line in DEV.read_text().splitlines())
+    """The labelled sentences of the language's own tests, but for those that start or end jobs."""
+    labelled = [json.loads(line) for line in DEV.read_text().splitlines()]
+    return tuple(each["text"] for each in labelled if JOBS.isdisjoint(_verbs(each)))
+
+
+def _verbs(labelled: Json) -> set[str]:
+    return {action["do"] for action in labelled.get("actions", ())}
 
 
 def walk(seed: int, length: int, *, by_hand: bool = True) -> list[Op]:

@@ -10,6 +10,7 @@ from sim.config import Config
 from sim.decide import decide
 from sim.explain.alternatives import after_move
 from sim.explain.episode_rollout import rollout
+from sim.search import compiled_costs
 from sim.search.continued import continued, forget
 from sim.search.costs import weights
 from sim.search.reachability import steps_left
@@ -57,7 +58,10 @@ def test_decisions_of_a_drive_are_those_of_each_moment_by_itself(planner: str) -
     assert looked > 300
 
 
-def test_a_later_tick_is_looked_up_only_while_all_goes_on_as_foretold() -> None:
+def test_a_later_tick_is_looked_up_only_while_all_goes_on_as_foretold(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(compiled_costs, "_found", None)  # else nothing is searched for, and nothing kept
     config = Config(seed=5, columns=6, rows=12, potholes=4, vehicles=8, planner="dijkstra")
     timeline = Timeline(config)
     forget()
