@@ -169,10 +169,12 @@ class Session(InNotebook):
         fps: int = 10,
         view: Literal["road", "schematic"] = "road",
         side: int = 480,
+        theme: Literal["dark", "light"] = "dark",
+        boxes: bool = True,
     ) -> media.Film:
         """A stretch of ticks as a moving picture; not said, the latest 20."""
-        call = endpoints.read_video(self.id, first, last, format=form, fps=fps, view=view, side=side)
-        return self._client._send(call)
+        asked = {"format": form, "fps": fps, "view": view, "side": side, "theme": theme, "boxes": boxes}
+        return self._client._send(endpoints.read_video(self.id, first, last, **asked))
 
     def watch(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> Iterator[Message]:
         """Messages as they come, until the session is deleted.

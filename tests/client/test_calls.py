@@ -85,6 +85,7 @@ def test_time_is_walked_saved_and_shared(client: Client, tmp_path: Path) -> None
         opened.delete()
     film = session.film(2, 5, fps=5, side=96)
     assert film.save(tmp_path / "road.gif").read_bytes()[:4] == b"GIF8"
+    assert session.film(2, 5, fps=5, side=96, theme="light").data != film.data
     session.load("before")
     assert (session.state().tick, session.state().digest) == (4, there)
     with pytest.raises(Invalid):

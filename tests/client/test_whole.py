@@ -45,6 +45,7 @@ def made() -> Iterator[tuple[str, Call[Any]]]:
         for parameter in signature.parameters.values():
             if parameter.kind is parameter.VAR_KEYWORD:
                 given |= {"format": "gif", "fps": 10, "view": "road", "side": 480}
+                given |= {"theme": "light", "boxes": False}
             elif parameter.name == "actions":
                 given["actions"] = [{"do": "pause"}]
             else:

@@ -177,6 +177,7 @@ async def test_over_a_socket() -> None:
         (told,) = [each for each in first if isinstance(each, dict)]
         assert told == {
             "type": "subscribed", "frames": "webp", "view": "schematic", "fps": 60, "side": 64,
+            "theme": "dark", "boxes": True, "figures": True,
         }  # fmt: skip
         (picture,) = [each for each in first if isinstance(each, bytes)]
         assert read(picture)[0] == 0

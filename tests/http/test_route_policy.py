@@ -12,7 +12,7 @@ from service.http.route_policy import RoutePolicy, policy
 from service.http.session_json import PREFIX
 from tests.contract.document import asked
 
-OPEN = {"/", "/docs", "/guide", "/openapi.json", "/healthz", "/readyz"}
+OPEN = {"/", "/embed", "/docs", "/guide", "/openapi.json", "/healthz", "/readyz"}
 """Open to all, besides files."""
 
 

@@ -105,6 +105,8 @@ async def test_it_tells_what_the_socket_tells(live: Live) -> None:
         events += [await reader.next() for _ in range(4)]
         told += [json.loads(await asyncio.wait_for(socket.recv(), 60)) for _ in range(4)]
     assert [event.name for event in events] == ["hello", "tick", "tick", "changed", "tick"]
+    # Each is told how many watch as it comes: one of them is the second.
+    assert {first["session"].pop("watchers") for first in (events[0].data, told[0])} == {1, 2}
     assert [event.data for event in events] == told
     assert [event.id for event in events] == [message["event"] for message in told]
     assert len({event.id for event in events}) == 5

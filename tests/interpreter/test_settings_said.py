@@ -39,6 +39,7 @@ async def talking(settings: Settings) -> AsyncIterator[Service]:
             "steer clear of potholes",
             "From now on I keep away from potholes. But the planner “Rules” does not weigh",
         ),
+        ("set the sensor range to 40 m", "The sensor range: 150 m → 40 m."),
         ("set rows to 40", "The number of rows: 30 → 40. A new road"),
     ],
 )
@@ -54,7 +55,7 @@ async def test_what_is_set_is_said(talking: Service, text: str, reply: str) -> N
 
 
 @pytest.mark.parametrize(
-    "text", ["set the sensor range to 40 m", "use the learned planner", "set courtesy to 300 %"]
+    "text", ["set the sensor range to 4000 m", "use the learned planner", "set courtesy to 300 %"]
 )
 async def test_what_cannot_be_set_changes_nothing(talking: Service, text: str) -> None:
     path = await talking.session(paused=True)

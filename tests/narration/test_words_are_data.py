@@ -32,6 +32,7 @@ ELSEWHERE = {
     "sessions/change.py": "the service's log",
     "sessions/live_ticks.py": "the service's log",
     "sessions/manager.py": "the service's log, recordings that do not fit, limits of the service",
+    "sessions/part.py": "an error for who writes code",
     "sessions/persistence/recording.py": "recordings that do not fit",
     "sessions/persistence/replay.py": "recordings that do not fit",
     "sessions/persistence/restore.py": "the service's log",

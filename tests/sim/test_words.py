@@ -14,6 +14,8 @@ ELSEWHERE = {
     "env/observation.py": "parts of errors for who writes code",
     "env/options.py": "parts of errors for who writes code",
     "env/saved_state.py": "parts of errors for who writes code",
+    "evaluate/metamorphic.py": "a tool for who writes planners",
+    "falsify/case.py": "files that hold no case, told on the command line",
     "fast_replace.py": "source code that is made",
     "hazard_advice/parameters.py": "what each figure is and where it is from",
     "plan/conformance.py": "a tool for who writes planners",
@@ -26,6 +28,7 @@ ELSEWHERE = {
     "render/hud.py": "drawn in a picture",
     "render/plan_view.py": "drawn in a picture",
     "render/video.py": "an error for who installs it",
+    "search/compiled_costs.py": "a type",
     "world/notation.py": "patterns of the notation",
 }
 """Where literals of that length stand, and what they are."""
