@@ -15,7 +15,7 @@ from typing import Any
 from service.actions.table import verbs_where
 from service.grammar.clause import Clause
 from service.grammar.lattice import Lattice
-from service.grammar.noun_phrases import WITHOUT, Amount
+from service.grammar.noun_phrases import Amount
 
 _IN_ORDER = "then"
 """Separator that says that one comes after the other."""
@@ -167,8 +167,8 @@ def _left_out(clauses: Sequence[Clause], lattice: Lattice) -> Contradiction | No
         if _says_how_many(clause, lattice):
             continue
         frame, slots = clause.filled.frame, clause.filled.slots
-        if not at and any(edge.concept == WITHOUT for edge in slots):
-            for other in clauses[1:]:  # "without cars, stop" may be a condition
+        if not at and all(edge.concept == _NONE for edge in slots):
+            for other in clauses[1:]:  # "without cars, stop": a condition, or none shall be there
                 if other.actions and not any(_is_of_things(action) for action in other.actions):
                     return Contradiction((other, clause))
         verbs = {str(template["do"]) for template in frame.actions if isinstance(template, dict)}

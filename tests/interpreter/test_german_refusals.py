@@ -26,11 +26,6 @@ async def german(opening: Opening) -> Talk:
             "Die Wahrscheinlichkeit neuer Autos muss zwischen 0 und 1 liegen; jetzt gilt 0,68.",
         ),
         ("entferne 50 Barrieren", "does-not-fit", "Es gibt auf der Straße keine Barriere."),
-        (
-            "sensorreichweite 40 m",
-            "not-available",
-            "Die Reichweite des Sensors lässt sich noch nicht ändern (40 m).",
-        ),
         ("mach das rückgängig", "nothing-to-undo", "Es gibt keine Änderung, die sich zurücknehmen ließe."),
         (
             "stell die Abspielgeschwindigkeit auf 900x",

@@ -65,7 +65,6 @@ async def test_long_work_is_not_begun(talk: Talk) -> None:
         ("add five pot", "not_understood"),
         ("don't add any cars", "refused"),
         ("slow down", "ambiguous"),
-        ("set the sensor range to 40 m", "refused"),
         ("redo", "refused"),
         ("add 100000 potholes", "refused"),
     ],

@@ -365,8 +365,10 @@ class Maker:
                     action["planners"] = self.random.sample(PLANNERS, self.random.randint(1, 3))
                 if self.chance(0.3):
                     action["vary"] = {"time_of_day": self.random.sample(["day", "dusk", "night", "dawn"], 2)}
-                parts = {key: value for key, value in self.parts().items() if key != "planner"}
-                parts = {key: value for key, value in parts.items() if key not in action.get("vary", {})}
+                left = {"planner"}
+                if "vary" in action:  # beside times that are compared, a traffic is asked about
+                    left |= {"time_of_day", "traffic"}
+                parts = {key: value for key, value in self.parts().items() if key not in left}
                 if parts and self.chance(0.5):
                     action["scenario"] = parts
                 return action
