@@ -4,9 +4,10 @@ Structure: one A* for each move that is free now, from the cell it leads to; wha
 the way to the goal sharpens the bounds of the next, so that most of them end where an earlier way is
 met. Guarantees: every move's total cost is exact, and the move taken is a cheapest (ties in the order
 of `Move`); since every tick costs something and the forecast holds, the cost to go falls by what is paid,
-so that there is no livelock; a road that can be driven is driven. Where the compiled costs are loaded
-(`sim.search.compiled_costs`), the same totals come from them. Simplifications: with courtesy above 0
-the forecast assumes that nobody gives way after the coming tick; smoothness is charged per move.
+so that there is no livelock; a road that can be driven without others braking for it is driven. Where the
+compiled costs are loaded (`sim.search.compiled_costs`), the same totals come from them. Simplifications:
+the forecast assumes that nobody brakes for the ego or gives way after the coming tick, so a way that
+depends on it is not found; smoothness is charged per move.
 Sources: Hart, Nilsson & Raphael (1968); space-time: Silver, "Cooperative pathfinding" (2005);
 Koenig & Likhachev, "Adaptive A*" (2005).
 """

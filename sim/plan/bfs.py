@@ -1,8 +1,8 @@
 """`bfs`: the fewest ticks to the goal, whatever else they cost.
 
 Structure: sets of cells stepped by the rules, once for each move that is free now. Guarantees: every
-move's ticks are exact; no livelock; a road that can be driven is driven. Simplifications and compiled costs:
-as `astar`, but nearness does not count. Source: `sim.search.reachability`.
+move's ticks are exact; no livelock; a road that can be driven without others braking for it is driven.
+Simplifications and compiled costs: as `astar`, but nearness does not count. Source: `sim.search.reachability`.
 """
 
 from __future__ import annotations
