@@ -2,7 +2,8 @@
 
 Structure: sets of cells stepped by the rules, once for each move that is free now. Guarantees: every
 move's ticks are exact; no livelock; a road that can be driven without others braking for it is driven.
-Simplifications and compiled costs: as `astar`, but nearness does not count. Source: `sim.search.reachability`.
+Simplifications and compiled costs: as `astar`, but nearness does not count.
+Source: `sim.search.reachability`.
 """
 
 from __future__ import annotations
