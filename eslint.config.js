@@ -20,7 +20,7 @@ export default [
     },
   },
   {
-    files: ["web/**/*.js", "service/http/docs/*.js"],
+    files: ["web/**/*.js", "service/http/docs/*.js", "service/client/*.js"],
     languageOptions: { globals: globals.browser },
     rules: {
       // Nothing said or sent becomes markup or code.

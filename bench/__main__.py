@@ -18,8 +18,10 @@ PARTS = (
     "live",
     "readers",
     "rest",
+    "commands",
     "restore",
     "startup",
+    "terminal",
     "window",
 )
 

@@ -5,6 +5,7 @@ On roads of 8 lanes and 30 rows from empty to crowded, without and with courtesy
 
 from __future__ import annotations
 
+import gc
 import random
 import time
 from collections.abc import Callable, Iterator
@@ -79,6 +80,7 @@ def main() -> None:
     """Print a row for each kind and planner."""
     load_compiled_costs(compile_now=True)
     narrator = Narrator.load()
+    gc.freeze()  # as the service does once it has started
     for planner in COUNTS:
         for courtesy in COURTESIES:
             for kind in KINDS:

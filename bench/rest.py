@@ -4,7 +4,9 @@ Both are asked by `wrk` where it is there, otherwise by a few connections of our
 same body by the same model and sends a fixed answer of the same length; it checks nothing, knows nothing and
 stores nothing. Commands are asked of a service that keeps them in memory, which is the comparison, and of one
 with a file that is synchronised before each answer, which is stated apart. The same sentence again is known
-again; sentences that are never said twice are stated beside it.
+again; sentences that are never said twice are stated beside it. Processor time is that of the process that
+answers, all its threads; it says most where other programs run as well, or where the asking takes longer than
+the answering.
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ from pathlib import Path
 import uvloop
 
 from bench.asking import Line, request
-from bench.serving import serving
+from bench.serving import Service, cpu_s, serving
 
 LINES = 8
 """Connections that ask at the same time."""
@@ -92,6 +94,8 @@ class Asked:
     url: str
     paths: tuple[str, ...]
     bodies: tuple[bytes, ...] = ()
+    pid: int = 0
+    """the process that answers"""
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -119,26 +123,35 @@ async def _measured(seconds: float) -> None:
         (folder / "result").write_bytes(result)
         bare = await stack.enter_async_context(_bare(folder))
         asked = [
-            Asked("state, bare", bare, look),
-            Asked("state", kept.url, look),
-            Asked("command, bare", bare, say, (SENTENCE,)),
-            Asked("command, in memory", kept.url, say, (SENTENCE,)),
-            Asked("command, never said before", kept.url, say, _DISTINCT),
-            Asked("command, typed", kept.url, act, (ACTIONS,)),
-            Asked("command, durable, one session", durable.url, many[:1], (SENTENCE,)),
-            Asked(f"command, durable, {LINES} sessions", durable.url, many, (SENTENCE,)),
+            Asked("state, bare", bare.url, look, pid=bare.pid),
+            Asked("state", kept.url, look, pid=kept.pid),
+            Asked("command, bare", bare.url, say, (SENTENCE,), bare.pid),
+            Asked("command, in memory", kept.url, say, (SENTENCE,), kept.pid),
+            Asked("command, never said before", kept.url, say, _DISTINCT, kept.pid),
+            Asked("command, typed", kept.url, act, (ACTIONS,), kept.pid),
+            Asked("command, durable, one session", durable.url, many[:1], (SENTENCE,), durable.pid),
+            Asked(f"command, durable, {LINES} sessions", durable.url, many, (SENTENCE,), durable.pid),
         ]
         rates: dict[str, list[float]] = {each.name: [] for each in asked}
+        spent: dict[str, list[float]] = {each.name: [] for each in asked}
         for _ in range(ROUNDS):
             for each in asked:
-                rates[each.name].append(await _rate(each, seconds, folder))
+                before_s, began_s = cpu_s(each.pid), time.perf_counter()
+                rate = await _rate(each, seconds, folder)
+                answered = rate * (time.perf_counter() - began_s)
+                rates[each.name].append(rate)
+                spent[each.name].append((cpu_s(each.pid) - before_s) / max(1.0, answered) * 1e6)
     by = "wrk" if shutil.which("wrk") else "a loader of our own, since there is no wrk"
     print(f"requests a second, {LINES} connections, median of {ROUNDS} turns of {seconds:g} s, asked by {by}")
     print(f"(state {len(state)} bytes, answer to the command {len(result)} bytes)")
     for name, own in rates.items():
         base = rates[f"{name.partition(',')[0]}, bare"]
         ratio = statistics.median(mine / bare for mine, bare in zip(own, base, strict=True))
-        print(f"  {name:<30} {statistics.median(own):8.0f}   {ratio:5.2f} × bare")
+        cpu, bare_cpu = (statistics.median(spent[each]) for each in (name, f"{name.partition(',')[0]}, bare"))
+        print(
+            f"  {name:<30} {statistics.median(own):8.0f}   {ratio:5.2f} × bare"
+            f"   {cpu:6.0f} µs of processor time, {bare_cpu / cpu:5.2f} × bare"
+        )
 
 
 async def _session(url: str) -> str:
@@ -238,14 +251,15 @@ async def _own_rate(asked: Asked, seconds: float) -> float:
 
 
 @asynccontextmanager
-async def _bare(folder: Path) -> AsyncIterator[str]:
+async def _bare(folder: Path) -> AsyncIterator[Service]:
     process = await asyncio.create_subprocess_exec(
         sys.executable, "-c", _BARE, str(folder / "state"), str(folder / "result"),
         stdout=asyncio.subprocess.PIPE,
     )  # fmt: skip
     assert process.stdout is not None
     try:
-        yield (await asyncio.wait_for(process.stdout.readline(), 60)).decode().strip()
+        url = (await asyncio.wait_for(process.stdout.readline(), 60)).decode().strip()
+        yield Service(url, process)
     finally:
         process.terminate()
         await process.wait()

@@ -7,8 +7,10 @@ default that needs no server. Nothing else constructs them.
 from __future__ import annotations
 
 import asyncio
+import os
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
+from typing import Any
 
 from fastapi import FastAPI
 from starlette.routing import BaseRoute
@@ -46,6 +48,7 @@ from service.http.routes import (
     guide,
     health,
     links,
+    long_answers,
     metrics,
     moments,
     pages,
@@ -78,9 +81,11 @@ from service.sessions.scheduler.clock import Clock
 from service.sessions.scheduler.wheel_clock import WheelClock
 from service.sessions.services import SessionServices
 from service.settings import Settings
+from service.sharding import SINGLE, Shard
 from service.shutdown import STOP_S, within
 from service.store import Store, open_store
 from service.version import VERSION
+from service.work.long_answers import LongAnswers
 from sim.evaluate.executor import Executor
 from sim.plan.sandbox.client import without_waiting
 
@@ -115,6 +120,7 @@ RESOURCES = (
     percept,
     regret,
     counterfactual,
+    long_answers,
     evaluations,
     metrics,
     backup,
@@ -143,20 +149,21 @@ def create_app(
     clock: Clock | None = None,
     model: LanguageModel | None = None,
     make_executor: Callable[[], Executor] | None = None,
+    shard: Shard = SINGLE,
 ) -> FastAPI:
-    """The service. Whatever is not given is what the settings name, or the default.
+    """The service, or one shard of it. Whatever is not given is what the settings name, or the default.
 
     Raises `StoreError` for a database URL of no known kind, `LanguageDataError` for broken words,
     `MissingExtraError` where a language model is named and the extra for it is missing.
     """
     settings = settings or Settings()
     measured = Metrics()
-    store = time_store(store or open_store(settings.database), measured.store)
+    store = time_store(store or open_store(settings.database, shard), measured.store)
     clock = clock or WheelClock(late=measured.lateness.observe)
     narrator = narrator or Narrator.load()
     model = model or create_model(settings)
-    jobs = JobRunner(store, [EvaluationJobs(), FindWorstJobs()], make_executor)
-    manager = SessionManager(SessionServices(store, clock, narrator, settings, jobs))
+    jobs = JobRunner(store, [EvaluationJobs(), FindWorstJobs()], make_executor, shard)
+    manager = SessionManager(SessionServices(store, clock, narrator, settings, jobs, shard))
     jobs.on_done = announcer(manager)
     languages = Languages.load() if language is None else Languages({DEFAULT_LANGUAGE: language})
     aliases = Aliases(store, languages)
@@ -171,7 +178,19 @@ def create_app(
     )
     measured.read_from(manager)
     guard, answers = Guard(settings), KeptAnswers(store)
-    context = Context(settings, store, clock, interpreter, narrator, manager, guard, measured, answers, jobs)
+    context = Context(
+        settings,
+        store,
+        clock,
+        interpreter,
+        narrator,
+        manager,
+        guard,
+        measured,
+        answers,
+        jobs,
+        long_answers=LongAnswers(shard=shard),
+    )
 
     app = FastAPI(
         separate_input_output_schemas=False,
@@ -182,8 +201,10 @@ def create_app(
         docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
+        **_telemetry(),
     )
     app.state.context = context
+    app.state.aliases = aliases
     routes = [route for resource in RESOURCES for route in resource.router.routes]
     _add_middleware(app, context, routes)
     errors.install(app)
@@ -194,6 +215,16 @@ def create_app(
     guide.install(app)
     app.router.routes.append(NO_WEBSOCKET)
     return app
+
+
+def _telemetry() -> dict[str, Any]:
+    """The option for what FastAPI reports to OpenTelemetry: nothing, unless the environment sets that up.
+
+    Otherwise each request looks for providers in the environment (`python -m bench.commands`). Versions of
+    FastAPI that report nothing ignore it.
+    """
+    on = any(name.startswith(("OTEL_", "FASTAPI_OTEL_")) for name in os.environ)
+    return {"telemetry": {"tracing": on, "metrics": on, "logs": on}}
 
 
 def _add_middleware(app: FastAPI, context: Context, routes: list[BaseRoute]) -> None:
@@ -214,6 +245,7 @@ def _lifespan(
 
     async def close(keepers: list[asyncio.Task[None]]) -> None:
         await asyncio.wait(keepers)
+        await context.long_answers.close()
         await context.jobs.close()
         await manager.close()
         if model is not None:

@@ -8,15 +8,18 @@
     ├── NotFound                    404  no such route or resource
     │   ├── UnknownSession
     │   ├── UnknownDecision
-    │   └── UnknownJob
+    │   ├── UnknownJob
+    │   └── UnknownLongAnswer            made in the background, and not kept any more
     ├── MethodNotAllowed            405  the route exists, the method does not
     ├── Ambiguous                   409  could mean several things: `choices`
     ├── BackupUnderWay              409  one backup at a time
     ├── NotFinished                 409  an evaluation has no report yet
+    ├── NotThereYet                 409  a long answer is still being made: `progress`
     ├── PreconditionFailed          412  the session was changed since: `sequence`
     ├── ContentTooLarge             413  more bytes than are read
     ├── UnsupportedMediaType        415  the content type is not JSON
     ├── MisdirectedRequest          421  asked under a name that is not this service's
+    ├── NotOfThisShard              421  the session lives in another process; its entry asks there
     ├── Invalid                     422  fields out of range or unknown: `errors`
     │   ├── DoesNotFit                   the road has no room, or no such thing
     │   ├── NotAvailable                 understood, not offered by this version
@@ -35,6 +38,7 @@
     ├── QuotaExceeded               429  a client has as much as it may have
     ├── Internal                    500  a defect here; says nothing of its inside
     ├── NotSaved                    503  the store did not take it; nothing was changed
+    ├── ShardDown                   503  the session's process is being replaced: `Retry-After`
     ├── Stopped                     503  work was ended before it was done; nothing was changed
     ├── BackupFailed                503  no backup was made
     └── NotRestorable               503  what is kept of the session cannot be replayed
@@ -47,9 +51,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
 MEDIA_TYPE = "application/problem+json"
+
+OWNER_HEADER: Final = "Roadtalk-Owner"
+"""The number of the shard that has what was asked for, in a response of one that has not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +150,18 @@ class UnknownJob(NotFound):
         super().__init__("No evaluation has this id. GET /api/v1/evaluations lists those there are.")
 
 
+class UnknownLongAnswer(NotFound):
+    """No long answer has this id: it was cancelled or forgotten, or the service was restarted since."""
+
+    slug, title = "unknown-answer", "No such answer"
+
+    def __init__(self) -> None:
+        super().__init__(
+            "No answer that takes long has this id: it was cancelled, is too old, or was lost when the "
+            "service was restarted. Ask for it again."
+        )
+
+
 class UnknownDecision(NotFound):
     """No decision was taken at this tick."""
 
@@ -181,6 +200,19 @@ class NotFinished(ProblemError):
         )
 
 
+class NotThereYet(ProblemError):
+    """A long answer is still being made."""
+
+    status, slug, title = 409, "not-there-yet", "Not there yet"
+
+    def __init__(self, progress: float) -> None:
+        super().__init__(
+            "This answer is still being made. Look at it again for its progress.",
+            headers={"Retry-After": "1"},
+            progress=progress,
+        )
+
+
 class PreconditionFailed(ProblemError):
     """The session has changed since the client saw it; `sequence` is where it is now."""
 
@@ -216,6 +248,19 @@ class MisdirectedRequest(ProblemError):
         super().__init__(
             "The Host header does not name this service. Ask at 127.0.0.1 or localhost; whoever runs it "
             "can allow other names with ROADTALK_ALLOWED_HOSTS."
+        )
+
+
+class NotOfThisShard(ProblemError):
+    """The session lives in another shard of the service; the entry sends the request there."""
+
+    status, slug, title = 421, "other-shard", "Another process has this session"
+
+    def __init__(self, shard: int) -> None:
+        """`shard`: the number of the one that has it."""
+        super().__init__(
+            f"The session is in shard {shard}. Nothing was done. Ask at the address of the service.",
+            headers={OWNER_HEADER: str(shard)},
         )
 
 
@@ -363,9 +408,22 @@ class NotSaved(ProblemError):
 
     status, slug, title = 503, "not-saved", "Could not be saved"
 
+    def __init__(self, detail: str | None = None) -> None:
+        super().__init__(
+            detail or "The change could not be saved, so it was not made. Try again; the disk may be full."
+        )
+
+
+class ShardDown(ProblemError):
+    """The process that has the session has died or does not answer; another one takes its place."""
+
+    status, slug, title = 503, "shard-down", "The process of this session is being replaced"
+
     def __init__(self) -> None:
         super().__init__(
-            "The change could not be saved, so it was not made. Try again; the disk may be full."
+            "The process that has this session is being replaced. A change that was under way may have been "
+            "made: send it again under the same Idempotency-Key.",
+            headers={"Retry-After": "1"},
         )
 
 
@@ -409,14 +467,17 @@ KINDS: tuple[type[ProblemError], ...] = (
     UnknownSession,
     UnknownDecision,
     UnknownJob,
+    UnknownLongAnswer,
     MethodNotAllowed,
     Ambiguous,
     BackupUnderWay,
     NotFinished,
+    NotThereYet,
     PreconditionFailed,
     ContentTooLarge,
     UnsupportedMediaType,
     MisdirectedRequest,
+    NotOfThisShard,
     Invalid,
     DoesNotFit,
     NotAvailable,
@@ -435,6 +496,7 @@ KINDS: tuple[type[ProblemError], ...] = (
     QuotaExceeded,
     Internal,
     NotSaved,
+    ShardDown,
     Stopped,
     BackupFailed,
     NotRestorable,

@@ -39,7 +39,7 @@ class Settings(BaseSettings):
     max_sessions: int = Field(
         default=1_000,
         ge=1,
-        description="Maximum number of live sessions. Idle sessions make room for others.",
+        description="Maximum number of live sessions of a process. Idle sessions make room for others.",
     )
     max_text_chars: int = Field(
         default=500, ge=1, le=10_000, description="Maximum length of one utterance, in characters."
@@ -179,17 +179,16 @@ class Settings(BaseSettings):
     workers: int = Field(
         default=1,
         validation_alias=AliasChoices("roadtalk_workers", "web_concurrency", "workers"),
-        description="Number of processes. Must be 1: sessions live in the memory of one process.",
+        ge=1,
+        le=256,
+        description="Number of processes that hold sessions. More than 1 need PostgreSQL and the extra "
+        "`cluster`.",
     )
-
-    @field_validator("workers")
-    @classmethod
-    def _one_process(cls, value: int) -> int:
-        if value != 1:
-            raise ValueError(
-                "only 1 can be: sessions live in the memory of one process, so several would each hold some"
-            )
-        return value
+    ray_address: str | None = Field(
+        default=None,
+        description="Address of a Ray cluster over whose machines the processes are spread, `auto` for the "
+        "one that this machine is in. Unset: all run on this machine.",
+    )
 
     @field_validator("llm_base_url")
     @classmethod

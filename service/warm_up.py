@@ -29,13 +29,18 @@ START_S = 0.25
 async def warm_up(languages: Languages) -> None:
     """Build what is built at its first use, then leave it out of garbage collection."""
     await asyncio.sleep(START_S)
+    await prepare(languages)
+    gc.freeze()
+    if wait_to_be_compiled():
+        await _compile()
+
+
+async def prepare(languages: Languages) -> None:
+    """Build what is built at its first use."""
     for build in _schemas():
         build()
         await asyncio.sleep(0)  # requests come first
     await asyncio.to_thread(_in_thread, languages)
-    gc.freeze()
-    if wait_to_be_compiled():
-        await _compile()
 
 
 async def _compile() -> None:

@@ -50,6 +50,9 @@ Parameter = Literal[
     "sensor_noise",
     "detection_sensitivity",
     "false_positive_rate",
+    "sensor_latency",
+    "slip_probability",
+    "traffic_by_hour",
     "sensor_range_m",
     "safety_buffer",
     "columns",
@@ -336,22 +339,40 @@ class Pause:
 
 
 Fact = Literal[
-    "crash", "arrival", "stuck", "episode", "every", "after", "tick", "row", "lane", "near", "count"
+    "crash",
+    "arrival",
+    "stuck",
+    "episode",
+    "every",
+    "after",
+    "tick",
+    "row",
+    "lane",
+    "goal",
+    "near",
+    "count",
+    "weather",
+    "time_of_day",
 ]
 """What a condition is about. Events (they happen in a tick): `crash`, `arrival`, `stuck`, and `episode`, a
 road that begins. Times: `every`, `after` (since the rule was made) and `tick` (of the session). The rest are
-so or not so: `row`, `lane`, `near` (how far the nearest thing is), `count` (how many things there are)."""
+so or not so: `row`, `lane`, `goal` (how far the goal is), `near` (how far the nearest thing is), `count` (how
+many things there are), `weather`, `time_of_day`."""
 
 _KEYS: dict[str, tuple[frozenset[str], ...]] = {
     **dict.fromkeys(("crash", "arrival", "stuck", "episode"), (frozenset(),)),
     **dict.fromkeys(("every", "after"), (frozenset(("ticks",)), frozenset(("seconds",)))),
     "tick": (frozenset(("tick",)),),
     "row": (frozenset(("row",)),),
-    "lane": (frozenset(("lane",)),),
+    **{
+        fact: (frozenset((fact,)), frozenset((fact, "no_longer")))
+        for fact in ("lane", "weather", "time_of_day")
+    },
+    "goal": (frozenset(("closer_than_m",)), frozenset(("within_m",))),
     "near": tuple(
-        frozenset(keys)
+        frozenset((bound, *keys))
         for bound in ("closer_than_m", "within_m", "farther_than_m")
-        for keys in ((bound,), (bound, "kind"))
+        for keys in ((), ("kind",), ("side",), ("kind", "side"))
     ),
     "count": (
         frozenset(("kind", "at_least")),
@@ -379,8 +400,14 @@ class Condition:
     closer_than_m: Annotated[float, Gt(0)] | None = None
     within_m: Annotated[float, Gt(0)] | None = None
     farther_than_m: Annotated[float, Gt(0)] | None = None
+    side: Literal["ahead", "behind"] | None = None
+    """only what stands straight before or behind the first ego counts as near"""
     at_least: Amount | None = None
     at_most: Amount | None = None
+    weather: Weather | None = None
+    time_of_day: TimeOfDay | None = None
+    no_longer: Literal[True] | None = None
+    """it holds where the fact is not so"""
 
     __pydantic_config__ = _STRICT
 

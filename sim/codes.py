@@ -33,10 +33,12 @@ PROBLEMS: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
         "has_no_start": (),
         "must_stay_on_the_road": (),
         "cannot_be_done": (),
+        "is_that_of_the_scenario": (),
     }
 )
-"""Codes of a `sim.config.Problem`. Those that end in `_not_available` are of scenarios; `has_no_way` and
-`has_no_start` are of the road of an evaluation, `must_stay_on_the_road` and `cannot_be_done` of its rules."""
+"""Codes of a `sim.config.Problem`. Those that end in `_not_available` are of scenarios; `has_no_way`,
+`has_no_start` and `is_that_of_the_scenario` are of the road of an evaluation, `must_stay_on_the_road` and
+`cannot_be_done` of its rules."""
 
 EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
     {

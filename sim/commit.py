@@ -6,6 +6,7 @@ from sim.config import Config
 from sim.fast_replace import field_setter
 from sim.rules.dynamics import Dynamics
 from sim.rules.mover_boards import shift_boards
+from sim.rules.slipping import moves_made
 from sim.rules.traffic_cache import cached_reactions, cached_shift_table, cached_step
 from sim.types import Move
 from sim.world import World
@@ -18,8 +19,11 @@ def commit(world: World, moves: tuple[Move, ...], config: Config) -> World:
     """Everything moved at once, nothing judged: the world one tick later.
 
     `moves` are in the order of `World.avs`. Where there are several egos, one in row 0 has arrived and stays.
-    Raises `ValueError` where a move leads off the road, and where there are not as many as egos.
+    On snow a move may slip. Raises `ValueError` where a move leads off the road, and where there are not as
+    many as egos.
     """
+    if config.slips:
+        moves = moves_made(world, moves, config)
     behaviour, road, boards = config.mover_behaviour, world.road, world.boards
     right, left, reactions = world.right, world.left, cached_reactions(world, config)
     motion = cached_step(

@@ -32,9 +32,17 @@ def _cached_in(folder: Path) -> Iterator[None]:
         config.CACHE_DIR = before
 
 
-def compiled(function: Callable[..., Any], signature: str | None = None) -> Any:
+def on_given_arrays(function: Callable[..., Any]) -> Any:
+    """A compiled function that makes no arrays, so that references to those it is given are not counted.
+
+    Counting takes longer than a short function with many arrays does by itself.
+    """
+    return compiled(function, counting=False)
+
+
+def compiled(function: Callable[..., Any], signature: str | None = None, *, counting: bool = True) -> Any:
     """A function that is compiled when first called and runs without the interpreter lock."""
-    options: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
+    options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": counting}
     folder = cache_folder()
     if folder is None:
         return numba.njit(signature, **options)(function)

@@ -14,6 +14,7 @@ from typing import Any, Final, Literal, get_args
 from sim import planner_names, sensor_names
 from sim.actions import MAX_THINGS, Layout, Preference, RoadType, TimeOfDay, Traffic, Weather
 from sim.codes import PROBLEMS, check_facts, plain_text
+from sim.daily_traffic import vehicle_probability
 from sim.randomness import MAX_SEED
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR, Behaviour
 from sim.rules.behaviour_registry import BEHAVIOURS
@@ -74,6 +75,9 @@ RANGES: Final[dict[str, tuple[float, float]]] = {
     "sensor_range_m": (5.0, 150.0),
     "sensor_noise": (0.0, 0.5),
     "false_positive_rate": (0.0, 0.5),
+    "sensor_latency": (0, 1),
+    "slip_probability": (0.0, 1.0),
+    "traffic_by_hour": (0.0, 1.0),
     "rules": (1, RULES),
     "seed": (0, MAX_SEED),
 }
@@ -110,6 +114,7 @@ _WHOLE: Final = frozenset(
         "rows",
         *(KINDS[kind].plural for kind in PLACEABLE),
         "safety_buffer",
+        "sensor_latency",
         "rules",
         "seed",
     )
@@ -121,16 +126,29 @@ _OPTIONAL: Final = frozenset(("potholes", "vehicles", "road", "layout", "traffic
 class Derived:
     """What follows from the fields of a configuration. Worked out once, since every tick asks for it."""
 
-    __slots__ = ("_dynamics", "certain", "free_ways_hold", "max_ticks", "mover_behaviour", "reacting")
+    __slots__ = (
+        "_dynamics",
+        "certain",
+        "free_ways_hold",
+        "max_ticks",
+        "mover_behaviour",
+        "reacting",
+        "slips",
+        "vehicle_probability",
+    )
 
     mover_behaviour: Behaviour
     """how obstacle vehicles and pedestrians move"""
     certain: bool
-    """whether the future is certain: nothing about the movers is left to chance once the road is drawn"""
+    """whether the future is certain: nothing is left to chance once the road is drawn"""
     reacting: bool
     """whether movers react to the ego, so that where they go depends on where it is"""
     free_ways_hold: bool
     """whether a way that meets nothing in a forecast without reactions meets nothing when driven"""
+    slips: float
+    """chance that a step to the side slips (`sim.rules.slipping`); 0 but on snow"""
+    vehicle_probability: float
+    """chance of an obstacle vehicle in a row at this time of day (`sim.daily_traffic`)"""
     max_ticks: int
     """an episode that lasts longer is STUCK"""
     _dynamics: Dynamics
@@ -189,6 +207,12 @@ class Config(Derived):
     """standard deviation added to measured distances, as a share of the distance"""
     false_positive_rate: float = 0.0
     """chance, added to its own, that a device reports something in a look that is not there"""
+    sensor_latency: int = 0
+    """ticks after which what sensors that err have looked at is known"""
+    slip_probability: float = 0.0
+    """chance that a step to the side is lost on snow (`sim.rules.slipping`)"""
+    traffic_by_hour: float = 0.0
+    """how much of the difference in traffic between times of day counts (`sim.daily_traffic`), 0 to 1"""
     dynamics: str = DEFAULT_DYNAMICS
     """how autonomous vehicles move (`sim.rules.dynamics`)"""
     behaviour: str = DEFAULT_BEHAVIOUR
@@ -208,11 +232,16 @@ class Config(Derived):
 
     def _derive(self) -> None:
         behaviour = BEHAVIOURS[self.behaviour]
+        slips = self.slip_probability if self.weather == "snow" else 0.0
         known = {
             "mover_behaviour": behaviour,
-            "certain": behaviour.certain(self),
+            "certain": behaviour.certain(self) and not slips,
             "reacting": behaviour.reads_egos(self),
-            "free_ways_hold": behaviour.free_ways_hold(self),
+            "free_ways_hold": behaviour.free_ways_hold(self) and not slips,
+            "slips": slips,
+            "vehicle_probability": vehicle_probability(
+                self.spawn_probability, self.time_of_day, self.traffic_by_hour
+            ),
             "max_ticks": max_ticks(self.rows),
             "_dynamics": dynamics_on(self.geometry, self.dynamics, self.collision == "swept"),
         }

@@ -20,6 +20,8 @@ class EventType(StrEnum):
     STUCK = "stuck"
     HELD_BACK = "held_back"
     """a person's move was not made because its cell would not be free"""
+    SLIPPED = "slipped"
+    """the step to the side of a move was lost on snow; `move` is what was tried"""
     PLANNER_FAILED = "planner_failed"
     """the planner gave no valid answer, and the ego stays"""
     NO_WAY = "no_way"

@@ -78,6 +78,8 @@ def _draw_road(
             return 0
         drawn_by = KINDS[kind].probability
         probability = getattr(config, drawn_by) if drawn_by else 0.0
+        if kind is Kind.VEHICLE:
+            probability = config.vehicle_probability
         first = layout.movers if kind.moves else layout.potholes if kind is Kind.POTHOLE else road.between
         stream = Stream.of(config.seed, f"spawn {kind}", episode, *attempt)
         free = road.between & ~taken

@@ -19,6 +19,7 @@ from sim.perceive import NO_BELIEF, Belief, sensor_named
 from sim.plan import Decision, traits_of
 from sim.repetition import NOTHING_KEPT, Watch, update_watch
 from sim.rules.dynamics import DEFAULT_DYNAMICS
+from sim.rules.slipping import moves_made
 from sim.state import FIRST, EgoStep, SimState, StepResult, hold_result
 from sim.types import Move, Outcome, ego_id
 from sim.world import World
@@ -72,8 +73,9 @@ def transition(
         move, fault = moves.get(ego.id, Move.STAY), faults.get(ego.id)
         return transition_alone(state, ego, move, steps, ego.id in by_person, fault)
     ids = [ego_id(number) for number in range(len(before.avs))]
-    all_moves = tuple([moves.get(id, Move.STAY) for id in ids])
-    after = next_world(before, all_moves, state.config, state.parked)
+    tried = tuple([moves.get(id, Move.STAY) for id in ids])
+    after = next_world(before, tried, state.config, state.parked)
+    all_moves = moves_made(before, tried, state.config)
     egos = {
         id: _one_of_several_moved(
             state,
@@ -87,7 +89,9 @@ def transition(
         for number, id in enumerate(ids)
         if id in state.egos
     }
-    return _ticked(_state_after(state, after, egos), steps, _events(state, after, moves, steps))
+    made = dict(zip(ids, all_moves, strict=True))
+    events = _events(state, after, dict(zip(ids, tried, strict=True)), made, steps)
+    return _ticked(_state_after(state, after, egos), steps, events)
 
 
 def transition_alone(
@@ -101,6 +105,9 @@ def transition_alone(
     """`transition` of the only ego of a road. The episode must not have ended."""
     before, config = state.world, state.config
     after = next_world(before, (move,), config)
+    tried = move
+    if config.slips:
+        move = moves_made(before, (move,), config)[0]
     certain, ended = config.certain, after.outcome is not Outcome.RUNNING
     watch: Watch | None = NOTHING_KEPT
     undecided = ended or by_person or fault is not None
@@ -116,8 +123,8 @@ def transition_alone(
     stateless = sensor_named(config.sensor).stateless
     belief = NO_BELIEF if stateless else _next_belief(state, steps, ego.id)
     made = _ego_after(ego, ego.queue[1:], metrics, fault, record, watch or NOTHING_KEPT, belief)
-    told = ended or (steps and (by_person or faulty))  # without steps nothing of a decision is told
-    events = _events(state, after, {ego.id: move}, steps) if told else ()
+    told = ended or (steps and (by_person or faulty or move is not tried))  # of a decision, with steps alone
+    events = _events(state, after, {ego.id: tried}, {ego.id: move}, steps) if told else ()
     return _ticked(_state_after(state, after, {ego.id: made}), steps, events)
 
 
@@ -193,9 +200,13 @@ def _one_of_several_moved(
 
 
 def _events(
-    state: SimState, after: World, moves: Mapping[str, Move], steps: Mapping[str, EgoStep]
+    state: SimState,
+    after: World,
+    tried: Mapping[str, Move],
+    moves: Mapping[str, Move],
+    steps: Mapping[str, EgoStep],
 ) -> tuple[Event, ...]:
-    """What there is to be told of a tick."""
+    """What there is to be told of a tick; `moves`: those that were made of those `tried`."""
     events = []
     for id, each in steps.items():
         decision = each.decision
@@ -216,6 +227,11 @@ def _events(
                     ego=id,
                 )
             )
+    events += [
+        Event(after.tick, EventType.SLIPPED, after.episode, move=tried[id], ego=id)
+        for id in steps
+        if moves.get(id) is not tried.get(id)
+    ]
     if after.outcome is not Outcome.RUNNING:
         cause = after.cause
         ids, cell, how = (cause.ids, cause.cell, cause.how) if cause else ((), None, None)

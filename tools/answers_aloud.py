@@ -34,7 +34,7 @@ QUESTIONS = {
         "what would it take for you to go left?",
         "where are you?",
         "what is in front of you?",
-        "how sure are you that you'll arrive?",
+        "how sure are you?",
         "is it safe to go left?",
         "when will we arrive?",
         "what was the riskiest moment so far?",
@@ -59,6 +59,7 @@ QUESTIONS = {
 MOST_WORDS = 60
 _CODE = re.compile(r"\b(?:vehicle|pothole|barrier|pedestrian|av)-\d+|\b\w+_\w+\b|[{}<>]|\bNone\b|\bTrue\b")
 _TICK = re.compile(r"\bticks?\b", re.IGNORECASE)
+_NUMBER = re.compile(r"\d")
 _COST = re.compile(r"\b\d{4,}\b")
 
 
@@ -86,9 +87,11 @@ def drives(draw: random.Random) -> Iterator[Timeline]:
         yield timeline
 
 
-def faults(text: str) -> list[str]:
-    """What no passenger should hear in an answer."""
-    named = [(_CODE, "code"), (_TICK, "tick"), (_COST, "raw number")]
+def faults(text: str, question: str = "") -> list[str]:
+    """What no passenger should hear in an answer; ticks may be told to who asked by their numbers."""
+    named = [(_CODE, "code"), (_COST, "raw number")]
+    if not _NUMBER.search(question):
+        named.append((_TICK, "tick"))
     found = [f"{name}: {match[0]}" for pattern, name in named if (match := pattern.search(text))]
     words = len(text.split())
     return [*found, f"{words} words"] if words > MOST_WORDS else found
@@ -114,7 +117,7 @@ def main() -> int:
             asked = Asked(parsed.actions[0], timeline, supposes=parsed.supposes)  # type: ignore[arg-type]
             text = answers.answer(asked)["text"]
             lengths.append(len(text.split()))
-            wrong = faults(text)
+            wrong = faults(text, question)
             faulty += bool(wrong)
             print(f"{question}  [{lengths[-1]}{'; ' + '; '.join(wrong) if wrong else ''}]\n    {text}")
         if len(lengths) >= options.answers:

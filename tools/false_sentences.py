@@ -94,14 +94,14 @@ def _of_why(timeline: Timeline, *, thorough: bool) -> judge.Judged:
     sayings, explained, narrator = judge.reading()
     explanation = why(timeline)
     text = explained.text(explanation)
-    named = sayings.recorded()
+    named = sayings.recorded(text)
     yield from judge.judge_comes_first(explanation, text)
     yield from judge.judge_groups(explanation, thorough=thorough)
     yield from judge.judge_left_out(explanation, text, named)
     yield from judge.judge_chain(explanation)
     yield from judge.judge_wording(text)
     line = narrator.decision(explanation.decision, explanation.moment)
-    yield from judge.judge_narration(explanation.moment, explanation.decision, line, sayings.recorded())
+    yield from judge.judge_narration(explanation.moment, explanation.decision, line, sayings.recorded(line))
 
 
 def _of_why_not(timeline: Timeline, number: int, *, thorough: bool) -> judge.Judged:
@@ -114,7 +114,9 @@ def _of_why_not(timeline: Timeline, number: int, *, thorough: bool) -> judge.Jud
     text = explained.text(explanation)
     yield from judge.judge_comes_first(explanation, text)
     yield from judge.judge_change(explanation, text, thorough=thorough)
-    yield from judge.judge_chance(state, text, ends_differ=hangs_on_chance(state, DRAWS))
+    off_road = made.option(foil).cell is None
+    differ = not off_road and any(hangs_on_chance(state, DRAWS, move) for move in (foil, made.move))
+    yield from judge.judge_chance(state, text, ends_differ=differ)
     yield from judge.judge_wording(text)
     stakes = explanation.stakes
     if number % CHANCES == 0 and stakes is not None and stakes.by_chance:
@@ -127,7 +129,8 @@ def _of_what_if(timeline: Timeline, number: int) -> judge.Judged:
     change = (Remove(kind="vehicle", count=1, where=Where(nearest=True)),)
     found = what_if(timeline, change)
     text = WhatIfs(sayings).text(Ask(about="what_if", change=change), found)
-    yield from judge.judge_chance(found.state, text, ends_differ=hangs_on_chance(found.state, DRAWS))
+    differ = any(hangs_on_chance(each, DRAWS) for each in (found.state, found.done[-1].state))
+    yield from judge.judge_chance(found.state, text, ends_differ=differ)
     yield from judge.judge_wording(text)
     if number % CHANCES == 0 and found.by_chance:
         yield from judge_stated(found.state, None, found.real_chances, text)

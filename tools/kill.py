@@ -118,7 +118,7 @@ class Client:
     def _send(self, http: httpx.Client) -> None:
         assert self.pending is not None
         path, body, key = self.pending
-        answer = http.post(path, json=body, headers={"Idempotency-Key": key})
+        answer = self._ask(http, path, body, key)
         if not answer.is_success:
             raise LostError(f"{body} was refused: {answer.text}")
         self.pending = None
@@ -130,6 +130,9 @@ class Client:
         if answer.json()["sequence"] != len(self.said[self.path]):
             raise LostError(f"{body} became {answer.json()['sequence']}, not {len(self.said[self.path])}")
         self.acknowledged += 1
+
+    def _ask(self, http: httpx.Client, path: str, body: dict[str, object], key: str) -> httpx.Response:
+        return http.post(path, json=body, headers={"Idempotency-Key": key})
 
     def check(self, http: httpx.Client, path: str) -> None:
         """The session holds what was acknowledged, in order, and at most what is pending besides."""

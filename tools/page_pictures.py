@@ -63,7 +63,7 @@ class Studio:
         """Once all is still."""
         page = visitor.page
         tick = visitor.script.state()["tick"]
-        lost = page.locator("#metrics").get_by_text(re.compile(rf"lost in {tick}$|^–$|was lost"))
+        lost = page.locator("#metrics").get_by_text(re.compile(rf"lost in {tick}$|^–$|unavoidable"))
         expect(lost.last).to_be_attached()
         visitor.coloured()
         before, now = b"", page.screenshot(animations="disabled")
@@ -123,6 +123,15 @@ def page(studio: Studio) -> None:
 def light(studio: Studio) -> None:
     """The same by day."""
     studio.take(_talked(studio, color_scheme="light"), "light")
+
+
+def perspective(studio: Studio) -> None:
+    """From behind the vehicle, by day: where it is about to go, and where the others are."""
+    visitor = studio.visit(9, config={"pedestrians": 3, "barriers": 3}, color_scheme="light")
+    studio.drive(visitor, 9)
+    visitor.say("perspective")
+    studio.drive(visitor, 3)
+    studio.take(visitor, "perspective")
 
 
 def phone(studio: Studio) -> None:
@@ -186,7 +195,7 @@ def counterfactual(studio: Studio) -> None:
 
 
 PICTURES: dict[str, Callable[[Studio], None]] = {
-    each.__name__: each for each in (page, light, phone, crash, bubble, counterfactual)
+    each.__name__: each for each in (page, light, perspective, phone, crash, bubble, counterfactual)
 }
 
 

@@ -15,7 +15,15 @@ from service.actions.action import (
     dump,
     load,
 )
-from service.actions.evaluation import Advise, Evaluate, EvaluationTalk, FindWorst, ScenarioParts, Varied
+from service.actions.evaluation import (
+    Advise,
+    Evaluate,
+    EvaluationTalk,
+    FindWorst,
+    MapAxis,
+    ScenarioParts,
+    Varied,
+)
 from service.actions.goals import Goal, Style
 from service.actions.questions import (
     QUESTIONS,
@@ -70,6 +78,7 @@ __all__ = [
     "Hide",
     "HistoryName",
     "Load",
+    "MapAxis",
     "MetricName",
     "Name",
     "Pause",

@@ -16,6 +16,7 @@ from pydantic_core import to_json
 
 from service.actions.evaluation import Advise, Evaluate, EvaluationTalk, FindWorst
 from service.actions.goals import Goal, Style
+from service.actions.parameters import MAX_PARAMETERS, PhraseParameter, figure
 from service.actions.questions import (
     HISTORY_KEYS,
     QUESTIONS,
@@ -32,7 +33,9 @@ from service.actions.questions import (
     PlannersName,
     QuestionName,
     QuestionTraits,
+    SightName,
     Term,
+    WorldName,
 )
 from service.actions.steering import (
     STRICT,
@@ -92,7 +95,17 @@ class Ask:
     value: int | float | str | None = None
     """the value that a setting is asked to have: answered by yes or no first"""
     term: Term | None = None
-    what: HistoryName | OtherName | OutlookName | BlameName | PlannersName | MomentName | None = None
+    what: (
+        HistoryName
+        | OtherName
+        | OutlookName
+        | BlameName
+        | PlannersName
+        | MomentName
+        | SightName
+        | WorldName
+        | None
+    ) = None
     until: Annotated[int, Ge(0)] | None = None
     """the last tick of a stretch that begins at `tick`"""
     ticks: Ticks | None = None
@@ -100,7 +113,8 @@ class Ask:
     seconds: Annotated[float, Gt(0), Le(100_000)] | None = None
     """the same in seconds"""
     count: Annotated[int, Ge(1), Le(1000)] | None = None
-    """how many of the latest changes are meant, or moments looked for; 1 of a kind of things: the nearest"""
+    """how many of the latest changes are meant, or moments looked for; 1 of a kind of things: the nearest; of
+    a what if, how many times it is done: moves, one a tick"""
     how: DetailName | None = None
     which: Which | None = None
     planners: Annotated[tuple[PlannerName, ...], MinLen(1), MaxLen(MAX_PLANNERS)] | None = None
@@ -121,8 +135,12 @@ class Ask:
             raise ValueError(f"'{self.parameter}' has options and no value")
         if self.about == "scene" and self.count is not None and (self.count != 1 or self.kind is None):
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
+        if self.about == "history" and self.kind is not None and self.what != "passed":
+            raise ValueError("of the past, only what was passed is asked of a kind of things")
         if self.about == "what_if" and (self.change is None) is (self.move is None):
             raise ValueError("say exactly one of 'change' and 'move'")
+        if self.about == "what_if" and self.count is not None and self.change is None:
+            raise ValueError("'count' says how many times a 'change' is made")
         if self.what is not None:
             self._check_what(self.what)
         if sum(each is not None for each in (self.tick, self.ticks, self.seconds)) > 1:
@@ -150,7 +168,7 @@ class Ask:
 
 _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "about"))
 """All that a question may name."""
-_BESIDE_WHAT = ("move", "tick", "until", "ticks", "planners", "planner")
+_BESIDE_WHAT = ("move", "tick", "until", "ticks", "seconds", "planners", "planner")
 """Keys that some values of `what` need, and others must not have."""
 
 
@@ -161,11 +179,27 @@ class Teach:
     do: Literal["teach"] = "teach"
     phrase: Phrase
     meaning: Annotated[tuple[Action, ...], MinLen(1), MaxLen(MAX_MEANT)]
+    parameters: Annotated[tuple[PhraseParameter, ...], MinLen(1), MaxLen(MAX_PARAMETERS)] | None = None
+    """the numbers that are said with the phrase; the meaning is then an example"""
 
     __pydantic_config__ = STRICT
 
     def __post_init__(self) -> None:
         _refuse_kinds("a phrase cannot mean to", self.meaning, (Chat, Teach, Forget))
+        if self.parameters is not None:
+            self._check(self.parameters)
+
+    def _check(self, parameters: tuple[PhraseParameter, ...]) -> None:
+        """Raise `ValueError` where a parameter is no word of the phrase, or stands for no figure."""
+        words = self.phrase.casefold().split()
+        names = [each.name.casefold() for each in parameters]
+        if len(set(names)) < len(names):
+            raise ValueError("two parameters have one name")
+        if words[:1] == names[:1] or any(words.count(name) != 1 for name in names):
+            raise ValueError("a parameter is one word of the phrase, and not its first")
+        told = dump(self.meaning)
+        if any(figure(told, path) is None for each in parameters for path in each.figures):
+            raise ValueError("a parameter stands for figures of the meaning")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

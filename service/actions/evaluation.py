@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from annotated_types import Ge, Gt, Le
 
-from service.actions.steering import STRICT
+from service.actions.steering import STRICT, Name
 from sim.actions import Amount, Layout, PlaceableKind, RoadType, TimeOfDay, Traffic, Weather
 from sim.planner_names import PlannerName
 from sim.sensor_names import SensorName
@@ -49,6 +49,10 @@ class Varied:
     __pydantic_config__ = STRICT
 
 
+MapAxis = Literal["potholes", "vehicles", "barriers", "pedestrians"]
+"""What a success map may be drawn over: numbers of things."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Evaluate:
     """Many episodes, compared."""
@@ -59,8 +63,12 @@ class Evaluate:
     scenario: ScenarioParts | None = None
     road: Literal["this"] | None = None
     """the session's own road from this moment on, in place of roads that are drawn"""
+    scenario_name: Name | None = None
+    """a scenario that comes with Roadtalk, or a moment that was saved in the session, by its name"""
     vary: Varied | None = None
     """conditions that are compared, such as fog with clear weather"""
+    map: tuple[MapAxis, MapAxis] | None = None
+    """a success map over these numbers of things; `vary` has their values, where they are given"""
 
     __pydantic_config__ = STRICT
 

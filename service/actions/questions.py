@@ -33,29 +33,94 @@ QuestionName = Literal[
     "planners",
     "quiz",
     "rules",
+    "sight",
+    "world",
 ]
 OutlookName = Literal[
-    "safe", "arrival", "crash", "arrive_how", "stuck", "avoid_how", "way", "wait", "free", "matters"
+    "safe",
+    "arrival",
+    "crash",
+    "arrive_how",
+    "stuck",
+    "avoid_how",
+    "way",
+    "wait",
+    "free",
+    "matters",
+    "risk",
+    "coming",
 ]
 """What of the time ahead is asked about.
 
 `way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is;
-`free`: which moves meet nothing now; `matters`: what the coming move hangs on.
+`free`: which moves meet nothing now; `matters`: what the coming move hangs on; `risk`: how safe it is now;
+`coming`: what happens in the next ticks or seconds.
 """
-BlameName = Literal["fault", "too_late", "foreseen", "avoidable"]
-"""What about a crash is asked."""
-PlannersName = Literal["here", "compare", "character", "own", "method"]
+BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human"]
+"""What about a crash is asked. `human`: whether a person would have crashed."""
+PlannersName = Literal["here", "compare", "character", "own", "method", "often", "difference"]
 """What about planners is asked.
 
-`own`: what this session's would have done where a person drove; `method`: by what it chooses.
+`own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
+often it arrives, crashes and gets stuck; `difference`: how some differ in general.
 """
 HistoryName = Literal[
-    "closest_call", "summary", "since", "between", "seen", "riskiest", "similar", "choices", "losses"
+    "closest_call",
+    "summary",
+    "since",
+    "between",
+    "seen",
+    "riskiest",
+    "similar",
+    "choices",
+    "losses",
+    "runner_up",
+    "scores",
+    "waited",
+    "differed",
+    "before_crash",
+    "lane_changes",
+    "passed",
+    "verdict",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
 `choices`: the moves of a decision, and what each would have met; `losses`: what the decisions of this episode
-have cost against the quickest way.
+have cost against the quickest way; `runner_up`: the second best move of a decision; `scores`: what it made of
+each move; `waited`: how long the ego has waited; `differed`: moves of a person that the planner would not
+have made; `before_crash`: what was hit, and the ego, in the last ticks before the latest crash;
+`lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went.
+"""
+SightName = Literal["phantoms", "missed", "truth", "range", "blind", "weather", "care", "weathers", "sensors"]
+"""What about sensing is asked.
+
+`truth`: what is really there; `blind`: whether it drives blind; `weather`: whether the weather made a
+difference; `care`: whether it drives otherwise in bad weather; `weathers`, `sensors`: which is best or worst.
+"""
+WorldName = Literal[
+    "pace",
+    "gap",
+    "stopping",
+    "right_of_way",
+    "harm",
+    "chance",
+    "colours",
+    "moves",
+    "movers",
+    "weights",
+    "learning",
+    "nature",
+    "sources",
+    "by_hand",
+    "giving_up",
+]
+"""What about this world and its rules is asked.
+
+`pace`: how fast a move is; `gap`: the distance kept; `harm`: whether anybody was hurt; `chance`: whether the
+same would happen again; `colours`: what the picture shows; `moves`: which moves there are; `movers`: how cars
+and people move; `weights`: whether a person counts more than a car; `learning`: whether it learns; `nature`:
+whether it feels; `sources`: where answers come from; `by_hand`: what happens while a person drives;
+`giving_up`: when a drive counts as stuck.
 """
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
@@ -150,7 +215,9 @@ class QuestionTraits:
 QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "why": QuestionTraits(("move", "instead", "what", "tick", "ticks", "seconds"), runs_episodes=True),
     "why_not": QuestionTraits(("move", "what", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
-    "what_if": QuestionTraits(("change", "move", "what", "tick", "ticks", "seconds"), runs_episodes=True),
+    "what_if": QuestionTraits(
+        ("change", "move", "what", "tick", "ticks", "seconds", "count"), runs_episodes=True
+    ),
     "next": QuestionTraits(),
     "scene": QuestionTraits(("kind", "count")),
     "status": QuestionTraits(),
@@ -161,7 +228,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "setting": QuestionTraits(("parameter", "value"), ("parameter",)),
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
-    "history": QuestionTraits(("what", "tick", "until", "ticks", "count"), ("what",), runs_episodes=True),
+    "history": QuestionTraits(
+        ("what", "tick", "until", "ticks", "seconds", "count", "kind"), ("what",), runs_episodes=True
+    ),
     "styles": QuestionTraits(),
     "changes": QuestionTraits(("count", "tick")),
     "pending": QuestionTraits(),
@@ -170,13 +239,15 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
         ("what", "which", "move", "tick", "ticks", "seconds"), ("what", "which"), runs_episodes=True
     ),
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
-    "outlook": QuestionTraits(("what", "move"), ("what",), runs_episodes=True),
+    "outlook": QuestionTraits(("what", "move", "ticks", "seconds"), ("what",), runs_episodes=True),
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
     "planners": QuestionTraits(
         ("what", "planners", "planner", "tick", "ticks"), ("what",), runs_episodes=True
     ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
+    "sight": QuestionTraits(("what",), ("what",), runs_episodes=True),
+    "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
@@ -186,6 +257,8 @@ WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
     "outlook": get_args(OutlookName),
     "blame": get_args(BlameName),
     "planners": get_args(PlannersName),
+    "sight": get_args(SightName),
+    "world": get_args(WorldName),
 }
 """The values of `what` that a kind of question may have."""
 
@@ -200,6 +273,8 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "wait": (frozenset(),),
     "free": (frozenset(),),
     "matters": (frozenset(),),
+    "risk": (frozenset(),),
+    "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),
     **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
     **dict.fromkeys(
@@ -211,6 +286,9 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "character": (frozenset(), frozenset(("planner",))),
     "own": (frozenset(), frozenset(("tick",))),
     "method": (frozenset(), frozenset(("planner",))),
+    "often": (frozenset(),),
+    "difference": (frozenset(("planners",)),),
+    **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""
@@ -218,12 +296,17 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
 HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "closest_call": (frozenset(),),
     "summary": (frozenset(),),
-    "since": (frozenset(("tick",)), frozenset(("ticks",))),
+    "since": (frozenset(("tick",)), frozenset(("ticks",)), frozenset(("seconds",))),
     "between": (frozenset(("tick", "until")),),
     "seen": (frozenset(("tick",)), frozenset(("ticks",))),
     "riskiest": (frozenset(), frozenset(("tick", "until"))),
     "similar": (frozenset(), frozenset(("tick",))),
     "choices": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
     "losses": (frozenset(),),
+    **dict.fromkeys(("runner_up", "scores"), (frozenset(), frozenset(("tick",)), frozenset(("ticks",)))),
+    "waited": (frozenset(),),
+    "differed": (frozenset(),),
+    "before_crash": (frozenset(),),
+    **dict.fromkeys(("lane_changes", "passed", "verdict"), (frozenset(),)),
 }
 """The ticks that a question about the past names, in each of the ways it can be said."""

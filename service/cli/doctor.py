@@ -150,7 +150,8 @@ def port(settings: Settings) -> Finding:
     except RoadtalkError:
         advice = "Choose another: ROADTALK_PORT=8001, or roadtalk serve --port 8001"
         return Finding("fault", f"{where} cannot be listened on: {reason}", advice)
-    return Finding("ok", f"{where}: this service runs there, version {plain(health.version)}")
+    said = f"{where}: this service runs there, version {plain(health.version)}"
+    return Finding("ok", said + doctor_checks.shards_text(health.shards))
 
 
 def language(_: Settings) -> Finding:
@@ -195,6 +196,7 @@ CHECKS: dict[str, Callable[[Settings], Finding]] = {
     "Python": python,
     "packages": packages,
     "database": database,
+    "workers": doctor_checks.workers,
     "port": port,
     "language": language,
     "model": doctor_checks.model,

@@ -9,12 +9,15 @@ import os
 import socket
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from sqlalchemy.engine import make_url
 from sqlalchemy.exc import ArgumentError
 
+from service.cli.terminal import plain
+from service.contract.health import ShardHealth
 from service.llm import MissingExtraError, create_model
 from service.llm.failures import PromptError
 from service.settings import Settings
@@ -110,6 +113,29 @@ def server(url: str) -> Finding:
         reason = error.strerror or str(error)
         return Finding("fault", f"{said} does not answer: {reason}", "Start it, or set ROADTALK_DATABASE.")
     return Finding("ok", f"{said} answers; whether it lets us in is tried when the service starts")
+
+
+def workers(settings: Settings) -> Finding:
+    """Can several processes hold sessions, where that is asked for; Ray is not started."""
+    if settings.workers == 1 and settings.ray_address is None:
+        return Finding("ok", "one process holds all sessions")
+    from service.cluster.serve import missing_for_shards
+
+    missing = missing_for_shards(settings)
+    if missing is not None:
+        return Finding("fault", missing, "Do that, or take ROADTALK_WORKERS away.")
+    over = "this machine" if settings.ray_address is None else f"the machines of {settings.ray_address}"
+    return Finding("ok", f"{settings.workers} processes hold sessions, over {over}")
+
+
+def shards_text(shards: Sequence[ShardHealth]) -> str:
+    """Where the sessions of a running service live; nothing where one process has them all."""
+    return "".join(
+        f"; shard {each.shard} is {plain(each.state)}"
+        + ("" if each.address is None else f" at {plain(each.address)}, process {each.process}")
+        + f", {each.sessions} sessions"
+        for each in shards
+    )
 
 
 def folder_fault(path: Path) -> str | None:

@@ -69,6 +69,8 @@ COMMANDS: Final = {
 SLOW: Final = {
     "doctor": "Looking at this machine …",
     "quiz": "Making roads to ask about …",
+    "evaluate": "Loading the simulator …",
+    "worst": "Loading the simulator …",
     "replay": "Loading the simulator …",
     "language-eval": "Loading the grammar …",
     "language-fuzz": "Loading the grammar …",
@@ -106,7 +108,8 @@ def load_command(name: str) -> Any:
     with gc_tuning.no_collection():  # nearly all that an import makes stays
         module = import_module(COMMANDS[name][0])
     alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-    alone.command(name)(getattr(module, name.replace("-", "_")))
+    made_by = getattr(module, "COMMAND", TyperCommand)
+    alone.command(name, cls=made_by)(getattr(module, name.replace("-", "_")))
     return typer.main.get_command(alone)
 
 

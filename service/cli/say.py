@@ -51,7 +51,7 @@ def say(
             if as_json:
                 _told(heard, sentence, language)
             else:
-                typer.echo(plain(_said(heard, sentence, language, asking=text != FROM_INPUT)))
+                typer.echo(plain(_said(heard, sentence, language, client.url, asking=text != FROM_INPUT)))
         if not as_json:
             typer.echo(plain(f"(session {heard.id})"), err=True)
 
@@ -72,9 +72,12 @@ def _told(session: Session, text: str, language: str | None) -> None:
         raise typer.Exit(1) from None
 
 
-def _said(session: Session, text: str, language: str | None, *, asking: bool) -> str:
+def _said(session: Session, text: str, language: str | None, url: str, *, asking: bool) -> str:
+    """The reply, and where the reports of evaluations are that the sentence has started."""
     try:
-        return session.say(text, language=language).reply
+        result = session.say(text, language=language)
+        reports = [f"{url}{each.links['report']}" for each in result.evaluations or ()]
+        return "\n".join([result.reply, *reports])
     except NotUnderstood as refused:
         fail(_offering(refused.detail, refused.suggestions))
     except Ambiguous as unclear:
@@ -82,7 +85,7 @@ def _said(session: Session, text: str, language: str | None, *, asking: bool) ->
         if not unclear.choices or not asking or not sys.stdin.isatty():
             fail(asked)
         typer.echo(asked)
-        return _said(session, typer.prompt("Which one"), language, asking=asking)
+        return _said(session, typer.prompt("Which one"), language, url, asking=asking)
 
 
 def _asking(unclear: Ambiguous) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Final
@@ -11,7 +10,8 @@ from typing import Annotated, Final
 import typer
 import yaml
 
-from service.cli.evaluate import FORMATS, report_of, run_here
+from service.cli.evaluate import run_here
+from service.cli.long_runs import check_reports, fail_refused
 from service.cli.terminal import URL, echo_json, fail, plain
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
@@ -93,7 +93,8 @@ def _list(as_json: bool) -> None:
 
 def _tell(what: What, found: ScenarioFile, language: str, as_json: bool, url: str) -> None:
     from service.grammar import Language
-    from service.scenarios.begin import first_state, scenario_link
+    from service.scenarios.begin import scenario_link
+    from service.scenarios.evaluation import first_state
     from service.scenarios.words import sentence_of
     from sim.world.notation import write
 
@@ -172,21 +173,16 @@ def _run(
     as_json: bool,
     url: str,
 ) -> None:
-    from service.scenarios.begin import evaluation_of_scenario
+    from service.scenarios.evaluation import evaluation_of_scenario
 
-    for path in to:
-        if path.suffix not in FORMATS:
-            fail(f"A report is written as {', '.join(FORMATS)}, and not as {path.suffix or path.name}.")
-    words = refusals(language)
+    check_reports(to)
     try:
         spec = evaluation_of_scenario(found, runs, tuple(planners), seed)
     except EvaluationError as error:
-        problem = error.problems[0]
-        setting = "runs" if problem.field == "episodes" else problem.field
-        fail(plain(words.session("evaluation_refused", problem=problem, setting=setting)))
+        fail_refused(error, language, "runs")
     except (ConfigError, GenerationError, EditError) as error:
         fail(plain(_why(error, language)))
-    report_of(spec, run_here(spec, processes or os.cpu_count() or 1, language), to, language, as_json, url)
+    run_here(spec, processes, None, to, language, as_json, url)
 
 
 def _why(error: Exception, language: str) -> str:

@@ -7,17 +7,18 @@ import os
 import socket
 import sys
 from collections.abc import Callable
-from typing import Annotated, NoReturn, cast
+from typing import Annotated, Literal, NoReturn, cast
 
 import typer
 import uvicorn
 from fastapi import FastAPI
 from pydantic import ValidationError
-from starlette.types import Message, Scope
+from starlette.types import ASGIApp, Message, Scope
 
 from service import gc_tuning as garbage
 from service import logging_setup as logs
 from service.app import create_app
+from service.cluster.places import ShardsNotStartedError
 from service.env_check import strays
 from service.grammar import LanguageDataError
 from service.http.protocol import protocol_options
@@ -53,14 +54,18 @@ def serve(
         str | None, typer.Option(help="Where sessions are kept.", show_default=_default("database"))
     ] = None,
     workers: Annotated[
-        int | None, typer.Option(help="Only 1: several would each hold some of the sessions.")
+        int | None,
+        typer.Option(
+            help="Processes that hold sessions; more than 1 need PostgreSQL and the extra 'cluster'.",
+            show_default=_default("workers"),
+        ),
     ] = None,
 ) -> None:
     """Run the service and its page until it is told to stop (Ctrl-C).
 
     Options win over the environment (ROADTALK_HOST, ROADTALK_PORT,
-    ROADTALK_DATABASE). It is one process on purpose: several would each
-    hold some of the sessions.
+    ROADTALK_DATABASE). One process holds all sessions unless --workers
+    names more.
 
     Example: roadtalk serve --port 9000
     """
@@ -79,17 +84,27 @@ def serve(
         _fail(reason)
     if settings.missing_model_setting is not None:
         _fail(f"A language model is named in part: {settings.missing_model_setting} is not set.")
+    several = settings.workers > 1 or settings.ray_address is not None
+    if several:
+        from service.cluster.serve import missing_for_shards, serve_shards
+
+        lacks = missing_for_shards(settings)
+        if lacks is not None:
+            _fail(lacks)
     listener = _listener(settings.host, settings.port)
     deadline = Deadline()
     stop_when_hung_up()
     try:
+        if several:
+            serve_shards(settings, listener, _say_ready)
+            return
         with garbage.no_collection():
             store = open_store(settings.database)
             config = server_config(create_app(settings, store=store), settings)
         sys.setswitchinterval(SWITCH_S)
         with asyncio.Runner(loop_factory=config.get_loop_factory()) as runner:
-            runner.run(_serve(config, store, listener, deadline))
-    except (StoreError, LanguageDataError, MissingExtraError, PromptError) as error:
+            runner.run(serve_app(config, store, listener, deadline, lambda _: _say_ready(listener)))
+    except (StoreError, LanguageDataError, MissingExtraError, PromptError, ShardsNotStartedError) as error:
         _fail(str(error))
     except KeyboardInterrupt:
         pass
@@ -98,8 +113,13 @@ def serve(
         listener.close()
 
 
-def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
-    """How the service is run: one process, no access log, no compression of small messages."""
+def server_config(
+    app: ASGIApp, settings: Settings, *, behind_entry: bool = False, lifespan: Literal["on", "off"] = "on"
+) -> uvicorn.Config:
+    """How the service is run: one process, no access log, no compression of small messages.
+
+    `behind_entry`: it is a shard, and the entry adds what a server adds to responses and trusts proxies.
+    """
     return uvicorn.Config(
         app,
         loop="auto",
@@ -110,10 +130,12 @@ def server_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
         log_config=None,
         log_level="warning",
         # Off unless asked for: else every program on this machine could say that it is somebody else.
-        proxy_headers=bool(settings.trusted_proxies),
+        proxy_headers=bool(settings.trusted_proxies) and not behind_entry,
         forwarded_allow_ips=settings.trusted_proxies,
+        server_header=not behind_entry,
+        date_header=not behind_entry,
         timeout_graceful_shutdown=STOP_S,
-        lifespan="on",
+        lifespan=lifespan,
     )
 
 
@@ -150,7 +172,14 @@ async def warmed(app: FastAPI) -> int:
     return status
 
 
-async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, deadline: Deadline) -> None:
+async def serve_app(
+    config: uvicorn.Config,
+    store: Store,
+    listener: socket.socket,
+    deadline: Deadline,
+    on_ready: Callable[[ServiceServer], None],
+) -> None:
+    """Run the service until it is told to stop. Raises `StoreError` for a database that cannot be opened."""
     # In a task of its own, as requests are: else all that is logged later would bear its id.
     app = cast(FastAPI, config.app)
     await asyncio.create_task(warmed(app))
@@ -159,9 +188,7 @@ async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, 
     sweeping = asyncio.create_task(sweep.run())
     # Before the server starts, so that a database that cannot be opened is one clear line.
     await store.open()
-    host, port = listener.getsockname()[:2]
-    shown = f"[{host}]" if ":" in host else host
-    server = _Server(config, lambda: typer.echo(f"Roadtalk is at http://{shown}:{port}"), deadline)
+    server = ServiceServer(config, on_ready, deadline)
     try:
         await server.serve(sockets=[listener])
     finally:
@@ -169,10 +196,19 @@ async def _serve(config: uvicorn.Config, store: Store, listener: socket.socket, 
         sweeping.cancel()
 
 
-class _Server(uvicorn.Server):
+def _say_ready(listener: socket.socket) -> None:
+    host, port = listener.getsockname()[:2]
+    shown = f"[{host}]" if ":" in host else host
+    typer.echo(f"Roadtalk is at http://{shown}:{port}")
+    sys.stdout.flush()
+
+
+class ServiceServer(uvicorn.Server):
     """Says when it is ready, not before."""
 
-    def __init__(self, config: uvicorn.Config, on_ready: Callable[[], None], deadline: Deadline) -> None:
+    def __init__(
+        self, config: uvicorn.Config, on_ready: Callable[[ServiceServer], None], deadline: Deadline
+    ) -> None:
         super().__init__(config)
         self._on_ready = on_ready
         self._deadline = deadline
@@ -190,8 +226,7 @@ class _Server(uvicorn.Server):
         """Begin to listen, then say so."""
         await super().startup(sockets)
         if self.started:
-            self._on_ready()
-            sys.stdout.flush()
+            self._on_ready(self)
             languages = self.config.app.state.context.interpreter.languages  # type: ignore[union-attr]
             self._warming = asyncio.create_task(warm_up(languages))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncGenerator, AsyncIterator, Mapping, Sequence
-from contextlib import aclosing
+from contextlib import aclosing, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
@@ -21,6 +21,7 @@ from service.client.call import (
     TIMEOUT_S,
     Call,
     Json,
+    Progress,
     auth_headers,
     check_url,
     read_answer,
@@ -36,6 +37,10 @@ from service.contract import answers
 from service.whole_file import whole_file
 
 T = TypeVar("T")
+
+ACCEPTED = 202
+FIRST_LOOK_S, LOOK_S = 0.1, 1.0
+"""How long a long answer is waited for before it is looked at, first and at most."""
 
 
 class AsyncClient:
@@ -54,6 +59,7 @@ class AsyncClient:
         transport: httpx.AsyncBaseTransport | None = None,
     ) -> None:
         self.url = check_url(url)
+        self._api_key = api_key
         self._headers = auth_headers(api_key)
         self._timeout_s = timeout_s
         self._patient = httpx.Timeout(timeout_s, read=None)
@@ -165,7 +171,9 @@ class AsyncClient:
         session: str | None = None,
         road: str | None = None,
         file: Json | None = None,
+        scenario_name: str | None = None,
         vary: Mapping[str, Sequence[Any]] | None = None,
+        map: Sequence[str] | None = None,
         seed: int | None = None,
         language: str | None = None,
     ) -> answers.Evaluation:
@@ -176,7 +184,20 @@ class AsyncClient:
         They are run in the background; `evaluation` says how far they are, and `report` what came of them.
         """
         call = endpoints.create_evaluation(
-            text, find, runs, planners, scenario, config, session, road, file, vary, seed, language
+            text,
+            find,
+            runs,
+            planners,
+            scenario,
+            config,
+            session,
+            road,
+            file,
+            scenario_name,
+            vary,
+            map,
+            seed,
+            language,
         )
         return await self._send(call)
 
@@ -200,7 +221,7 @@ class AsyncClient:
         """The session of this id; nothing is asked before it is used."""
         return AsyncSession(self, session_id)
 
-    async def _send(self, call: Call[T]) -> T:
+    async def _send(self, call: Call[T], progress: Progress | None = None) -> T:
         second = False
         try:
             response = await self._http.request(**call.request())
@@ -212,7 +233,28 @@ class AsyncClient:
                 raise unreachable(self.url, error) from lost
         except httpx.TransportError as error:
             raise unreachable(self.url, error) from error
+        if call.long and response.status_code == ACCEPTED:
+            response = await self._long_answer(response, progress)
         return read_answer(call, response, self._send, second=second)
+
+    async def _long_answer(self, accepted: httpx.Response, progress: Progress | None) -> httpx.Response:
+        """The answer that the service makes in the background; cancelled with whoever waits for it."""
+        told, delay_s = endpoints.read_long_answer("", "").read(accepted), FIRST_LOOK_S
+        of = told.session, told.id
+        asked, forgotten = endpoints.read_long_answer(*of), endpoints.delete_long_answer(*of)
+        try:
+            while told.state == "running":
+                if progress is not None:
+                    progress(told.progress)
+                await asyncio.sleep(delay_s)
+                delay_s = min(LOOK_S, 2 * delay_s)
+                told = await self._send(asked)
+            return await self._http.request(**endpoints.read_long_answer_result(*of).request())
+        except httpx.TransportError as error:
+            raise unreachable(self.url, error) from error
+        finally:
+            with suppress(httpx.TransportError):
+                await self._http.request(**forgotten.request())
 
     async def _watch(self, session: str, after: str | None, patience_s: float) -> AsyncIterator[Message]:
         watching = StreamReader(self.url, session, after, patience_s)

@@ -6,7 +6,7 @@ from collections.abc import AsyncIterator, Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
 from service.client import endpoints, media
-from service.client.call import PATIENCE_S
+from service.client.call import PATIENCE_S, Progress
 from service.client.media import Picture
 from service.client.messages import Message
 from service.client.notebook import AsyncInNotebook
@@ -26,6 +26,9 @@ class AsyncSession(AsyncInNotebook):
 
     def __repr__(self) -> str:
         return f"AsyncSession({self.id!r})"
+
+    def _opened_by(self) -> AsyncClient:
+        return self._client
 
     async def info(self) -> answers.Session:
         """The session as it stands."""
@@ -124,17 +127,27 @@ class AsyncSession(AsyncInNotebook):
         """Worlds in a row, each with the decision that led to it."""
         return await self._client._send(endpoints.list_moments(self.id, first, limit))
 
-    async def forecast(self, ticks: int = 1, *, at_tick: int | None = None) -> answers.Expected:
-        """What the vehicle is about to do, and where movers are expected to be."""
-        return await self._client._send(endpoints.read_forecast(self.id, ticks, at_tick))
+    async def forecast(
+        self, ticks: int = 1, *, at_tick: int | None = None, path: int = 0
+    ) -> answers.Expected:
+        """What the vehicle is about to do, and where movers are expected to be.
+
+        `path`: over how many ticks its own cells are told as well.
+        """
+        return await self._client._send(endpoints.read_forecast(self.id, ticks, at_tick, path))
 
     async def percept(self, *, at_tick: int | None = None) -> answers.Sensed:
         """What the vehicle sees, how sure it is of it, and what it makes up or misses."""
         return await self._client._send(endpoints.read_percept(self.id, at_tick))
 
-    async def regret(self, first: int = 0, *, limit: int = 60) -> answers.Judged:
-        """Each decision against the best that could have been done at its moment."""
-        return await self._client._send(endpoints.read_regret(self.id, first, limit))
+    async def regret(
+        self, first: int = 0, *, limit: int = 60, progress: Progress | None = None
+    ) -> answers.Judged:
+        """Each decision against the best that could have been done at its moment.
+
+        `progress` is told the share that is done, where it takes long.
+        """
+        return await self._client._send(endpoints.read_regret(self.id, first, limit), progress)
 
     async def counterfactual(
         self,
@@ -156,10 +169,18 @@ class AsyncSession(AsyncInNotebook):
         return await self._client._send(endpoints.read_recording(self.id))
 
     async def frame(
-        self, *, view: Literal["road", "schematic"] = "road", form: Literal["png", "jpeg", "webp"] = "png"
+        self,
+        *,
+        view: Literal["road", "schematic"] = "road",
+        form: Literal["png", "jpeg", "webp"] = "png",
+        theme: Literal["dark", "light"] = "dark",
+        boxes: bool = True,
+        figures: bool = True,
+        forecast: bool = False,
     ) -> media.Frame:
         """A picture of the road as it is now."""
-        return await self._client._send(endpoints.read_frame(self.id, view, form))
+        look = {"theme": theme, "boxes": boxes, "figures": figures, "forecast": forecast}
+        return await self._client._send(endpoints.read_frame(self.id, view, form, **look))
 
     async def film(
         self,
@@ -172,10 +193,17 @@ class AsyncSession(AsyncInNotebook):
         side: int = 480,
         theme: Literal["dark", "light"] = "dark",
         boxes: bool = True,
+        path: bool = True,
+        forecast: bool = False,
+        progress: Progress | None = None,
     ) -> media.Film:
-        """A stretch of ticks as a moving picture; not said, the latest 20."""
-        asked = {"format": form, "fps": fps, "view": view, "side": side, "theme": theme, "boxes": boxes}
-        return await self._client._send(endpoints.read_video(self.id, first, last, **asked))
+        """A stretch of ticks as a moving picture; not said, the latest 20.
+
+        `progress` is told the share that is done, where it takes long.
+        """
+        look = {"theme": theme, "boxes": boxes, "path": path, "forecast": forecast}
+        asked = {"format": form, "fps": fps, "view": view, "side": side, **look}
+        return await self._client._send(endpoints.read_video(self.id, first, last, **asked), progress)
 
     def watch(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> AsyncIterator[Message]:
         """Messages as they come, until the session is deleted.
@@ -197,10 +225,16 @@ class AsyncSession(AsyncInNotebook):
         view: Literal["road", "schematic"] = "road",
         fps: int = 30,
         side: int = 480,
+        theme: Literal["dark", "light"] = "dark",
+        boxes: bool = True,
+        figures: bool = True,
+        path: bool = True,
+        forecast: bool = False,
         patience_s: float = PATIENCE_S,
     ) -> AsyncIterator[Picture]:
         """Pictures as they are drawn, at most `fps` a second; none while nothing moves."""
-        wanted = {"frames": form, "view": view, "fps": fps, "side": side}
+        look = {"theme": theme, "boxes": boxes, "figures": figures, "path": path, "forecast": forecast}
+        wanted = {"frames": form, "view": view, "fps": fps, "side": side, **look}
         return self._client._pictures(self.id, patience_s, wanted)
 
     async def rename(self, name: str | None) -> answers.Session:

@@ -41,10 +41,14 @@ class Call(Generic[T]):
     params: Json = field(default_factory=dict)
     said: str | None = None
     key: str | None = None
+    long: bool = False
+    """whether the service may make the answer in the background: then it is waited for"""
 
     def request(self) -> dict[str, Any]:
         """What httpx is given."""
         headers = {"Idempotency-Key": self.key} if self.key else {}
+        if self.long:
+            headers["Prefer"] = "respond-async"
         params = {name: value for name, value in self.params.items() if value is not None}
         given = {"json": self.body} if self.body is not None else {}
         return {"method": self.method, "url": self.path, "headers": headers, "params": params, **given}
@@ -63,7 +67,12 @@ class Call(Generic[T]):
             self.params,
             self.said,
             self.key,
+            self.long,
         )
+
+
+Progress = Callable[[float], None]
+"""Told the share of a long answer that is done, from 0 to 1."""
 
 
 def read_answer(

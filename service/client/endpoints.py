@@ -47,6 +47,10 @@ def _without_none(**values: Any) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
+def _answer_path(session: str, answer: str, below: str = "") -> str:
+    return _session_path(session, f"/answers/{quote(answer, safe='')}{below}")
+
+
 def _session_path(session: str, part: str = "") -> str:
     """The path of a session, or of a part of it."""
     return f"{PREFIX}/sessions/{quote(session, safe='')}{part}"
@@ -195,16 +199,16 @@ def read_recording(session: str) -> Call[Recording]:
     return Call("GET", _session_path(session, "/recording"), _json(Recording))
 
 
-def read_frame(session: str, view: str, form: str) -> Call[media.Frame]:
+def read_frame(session: str, view: str, form: str, **look: Any) -> Call[media.Frame]:
     """A picture."""
-    params = {"view": view, "format": form}
+    params = {"view": view, "format": form, **look}
     return Call("GET", _session_path(session, "/frame"), _media(media.Frame), params=params)
 
 
 def read_video(session: str, first: int | None, last: int | None, **asked: Any) -> Call[media.Film]:
     """A stretch of ticks as a moving picture."""
     params = {"from": first, "to": last, **asked}
-    return Call("GET", _session_path(session, "/film"), _media(media.Film), params=params)
+    return Call("GET", _session_path(session, "/film"), _media(media.Film), params=params, long=True)
 
 
 def read_link(session: str, tick: int | None) -> Call[answers.Link]:
@@ -242,9 +246,9 @@ def list_moments(session: str, first: int, limit: int) -> Call[answers.Moments]:
     return Call("GET", _session_path(session, "/moments"), _json(answers.Moments), params=params)
 
 
-def read_forecast(session: str, ticks: int, tick: int | None) -> Call[answers.Expected]:
+def read_forecast(session: str, ticks: int, tick: int | None, path: int) -> Call[answers.Expected]:
     """What is expected of the ticks to come."""
-    params = {"ticks": ticks, "tick": tick}
+    params = {"ticks": ticks, "tick": tick, "path": path or None}
     return Call("GET", _session_path(session, "/forecast"), _json(answers.Expected), params=params)
 
 
@@ -256,7 +260,22 @@ def read_percept(session: str, tick: int | None) -> Call[answers.Sensed]:
 def read_regret(session: str, first: int, limit: int) -> Call[answers.Judged]:
     """What decisions cost against the best."""
     params = {"from": first, "limit": limit}
-    return Call("GET", _session_path(session, "/regret"), _json(answers.Judged), params=params)
+    return Call("GET", _session_path(session, "/regret"), _json(answers.Judged), params=params, long=True)
+
+
+def read_long_answer(session: str, answer: str) -> Call[answers.LongAnswer]:
+    """How far a long answer is."""
+    return Call("GET", _answer_path(session, answer), _json(answers.LongAnswer))
+
+
+def read_long_answer_result(session: str, answer: str) -> Call[httpx.Response]:
+    """What a long answer came to, for the call that asked for it to read."""
+    return Call("GET", _answer_path(session, answer, "/result"), lambda response: response)
+
+
+def delete_long_answer(session: str, answer: str) -> Call[None]:
+    """Cancels or forgets a long answer."""
+    return Call("DELETE", _answer_path(session, answer), lambda _: None, key=new_key())
 
 
 def run_counterfactual(
@@ -289,7 +308,9 @@ def create_evaluation(
     session: str | None,
     road: str | None,
     file: Json | None,
+    scenario_name: str | None,
     vary: Mapping[str, Sequence[Any]] | None,
+    map: Sequence[str] | None,
     seed: int | None,
     language: str | None,
 ) -> Call[answers.Evaluation]:
@@ -304,7 +325,9 @@ def create_evaluation(
         session=session,
         road=road,
         file=file,
+        scenario_name=scenario_name,
         vary=vary,
+        map=None if map is None else [*map],
         seed=seed,
         language=language,
     )

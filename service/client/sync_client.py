@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Generator, Iterator, Mapping, Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
@@ -21,6 +21,7 @@ from service.client.call import (
     TIMEOUT_S,
     Call,
     Json,
+    Progress,
     auth_headers,
     check_url,
     read_answer,
@@ -37,6 +38,10 @@ from service.contract import answers
 from service.whole_file import whole_file
 
 T = TypeVar("T")
+
+ACCEPTED = 202
+FIRST_LOOK_S, LOOK_S = 0.1, 1.0
+"""How long a long answer is waited for before it is looked at, first and at most."""
 
 
 class Client:
@@ -55,6 +60,7 @@ class Client:
         transport: httpx.BaseTransport | None = None,
     ) -> None:
         self.url = check_url(url)
+        self._api_key = api_key
         self._headers = auth_headers(api_key)
         self._timeout_s = timeout_s
         self._patient = httpx.Timeout(timeout_s, read=None)
@@ -166,7 +172,9 @@ class Client:
         session: str | None = None,
         road: str | None = None,
         file: Json | None = None,
+        scenario_name: str | None = None,
         vary: Mapping[str, Sequence[Any]] | None = None,
+        map: Sequence[str] | None = None,
         seed: int | None = None,
         language: str | None = None,
     ) -> answers.Evaluation:
@@ -177,7 +185,20 @@ class Client:
         They are run in the background; `evaluation` says how far they are, and `report` what came of them.
         """
         call = endpoints.create_evaluation(
-            text, find, runs, planners, scenario, config, session, road, file, vary, seed, language
+            text,
+            find,
+            runs,
+            planners,
+            scenario,
+            config,
+            session,
+            road,
+            file,
+            scenario_name,
+            vary,
+            map,
+            seed,
+            language,
         )
         return self._send(call)
 
@@ -201,7 +222,7 @@ class Client:
         """The session of this id; nothing is asked before it is used."""
         return Session(self, session_id)
 
-    def _send(self, call: Call[T]) -> T:
+    def _send(self, call: Call[T], progress: Progress | None = None) -> T:
         second = False
         try:
             response = self._http.request(**call.request())
@@ -213,7 +234,28 @@ class Client:
                 raise unreachable(self.url, error) from lost
         except httpx.TransportError as error:
             raise unreachable(self.url, error) from error
+        if call.long and response.status_code == ACCEPTED:
+            response = self._long_answer(response, progress)
         return read_answer(call, response, self._send, second=second)
+
+    def _long_answer(self, accepted: httpx.Response, progress: Progress | None) -> httpx.Response:
+        """The answer that the service makes in the background; cancelled with whoever waits for it."""
+        told, delay_s = endpoints.read_long_answer("", "").read(accepted), FIRST_LOOK_S
+        of = told.session, told.id
+        asked, forgotten = endpoints.read_long_answer(*of), endpoints.delete_long_answer(*of)
+        try:
+            while told.state == "running":
+                if progress is not None:
+                    progress(told.progress)
+                time.sleep(delay_s)
+                delay_s = min(LOOK_S, 2 * delay_s)
+                told = self._send(asked)
+            return self._http.request(**endpoints.read_long_answer_result(*of).request())
+        except httpx.TransportError as error:
+            raise unreachable(self.url, error) from error
+        finally:
+            with suppress(httpx.TransportError):
+                self._http.request(**forgotten.request())
 
     def _watch(self, session: str, after: str | None, patience_s: float) -> Iterator[Message]:
         watching = StreamReader(self.url, session, after, patience_s)

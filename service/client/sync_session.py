@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
 from service.client import endpoints, media
-from service.client.call import PATIENCE_S
+from service.client.call import PATIENCE_S, Progress
 from service.client.media import Picture
 from service.client.messages import Message
 from service.client.notebook import InNotebook
@@ -27,6 +27,9 @@ class Session(InNotebook):
 
     def __repr__(self) -> str:
         return f"Session({self.id!r})"
+
+    def _opened_by(self) -> Client:
+        return self._client
 
     def info(self) -> answers.Session:
         """The session as it stands."""
@@ -123,17 +126,23 @@ class Session(InNotebook):
         """Worlds in a row, each with the decision that led to it."""
         return self._client._send(endpoints.list_moments(self.id, first, limit))
 
-    def forecast(self, ticks: int = 1, *, at_tick: int | None = None) -> answers.Expected:
-        """What the vehicle is about to do, and where movers are expected to be."""
-        return self._client._send(endpoints.read_forecast(self.id, ticks, at_tick))
+    def forecast(self, ticks: int = 1, *, at_tick: int | None = None, path: int = 0) -> answers.Expected:
+        """What the vehicle is about to do, and where movers are expected to be.
+
+        `path`: over how many ticks its own cells are told as well.
+        """
+        return self._client._send(endpoints.read_forecast(self.id, ticks, at_tick, path))
 
     def percept(self, *, at_tick: int | None = None) -> answers.Sensed:
         """What the vehicle sees, how sure it is of it, and what it makes up or misses."""
         return self._client._send(endpoints.read_percept(self.id, at_tick))
 
-    def regret(self, first: int = 0, *, limit: int = 60) -> answers.Judged:
-        """Each decision against the best that could have been done at its moment."""
-        return self._client._send(endpoints.read_regret(self.id, first, limit))
+    def regret(self, first: int = 0, *, limit: int = 60, progress: Progress | None = None) -> answers.Judged:
+        """Each decision against the best that could have been done at its moment.
+
+        `progress` is told the share that is done, where it takes long.
+        """
+        return self._client._send(endpoints.read_regret(self.id, first, limit), progress)
 
     def counterfactual(
         self,
@@ -155,10 +164,18 @@ class Session(InNotebook):
         return self._client._send(endpoints.read_recording(self.id))
 
     def frame(
-        self, *, view: Literal["road", "schematic"] = "road", form: Literal["png", "jpeg", "webp"] = "png"
+        self,
+        *,
+        view: Literal["road", "schematic"] = "road",
+        form: Literal["png", "jpeg", "webp"] = "png",
+        theme: Literal["dark", "light"] = "dark",
+        boxes: bool = True,
+        figures: bool = True,
+        forecast: bool = False,
     ) -> media.Frame:
         """A picture of the road as it is now."""
-        return self._client._send(endpoints.read_frame(self.id, view, form))
+        look = {"theme": theme, "boxes": boxes, "figures": figures, "forecast": forecast}
+        return self._client._send(endpoints.read_frame(self.id, view, form, **look))
 
     def film(
         self,
@@ -171,10 +188,17 @@ class Session(InNotebook):
         side: int = 480,
         theme: Literal["dark", "light"] = "dark",
         boxes: bool = True,
+        path: bool = True,
+        forecast: bool = False,
+        progress: Progress | None = None,
     ) -> media.Film:
-        """A stretch of ticks as a moving picture; not said, the latest 20."""
-        asked = {"format": form, "fps": fps, "view": view, "side": side, "theme": theme, "boxes": boxes}
-        return self._client._send(endpoints.read_video(self.id, first, last, **asked))
+        """A stretch of ticks as a moving picture; not said, the latest 20.
+
+        `progress` is told the share that is done, where it takes long.
+        """
+        look = {"theme": theme, "boxes": boxes, "path": path, "forecast": forecast}
+        asked = {"format": form, "fps": fps, "view": view, "side": side, **look}
+        return self._client._send(endpoints.read_video(self.id, first, last, **asked), progress)
 
     def watch(self, *, after: str | None = None, patience_s: float = PATIENCE_S) -> Iterator[Message]:
         """Messages as they come, until the session is deleted.
@@ -196,10 +220,16 @@ class Session(InNotebook):
         view: Literal["road", "schematic"] = "road",
         fps: int = 30,
         side: int = 480,
+        theme: Literal["dark", "light"] = "dark",
+        boxes: bool = True,
+        figures: bool = True,
+        path: bool = True,
+        forecast: bool = False,
         patience_s: float = PATIENCE_S,
     ) -> Iterator[Picture]:
         """Pictures as they are drawn, at most `fps` a second; none while nothing moves."""
-        wanted = {"frames": form, "view": view, "fps": fps, "side": side}
+        look = {"theme": theme, "boxes": boxes, "figures": figures, "path": path, "forecast": forecast}
+        wanted = {"frames": form, "view": view, "fps": fps, "side": side, **look}
         return self._client._pictures(self.id, patience_s, wanted)
 
     def rename(self, name: str | None) -> answers.Session:

@@ -84,7 +84,7 @@ class Advice(Answered):
 
     question: str
     text: str
-    source: Annotated[str, DocumentedAs(Literal["typed", "grammar", "llm"])]
+    source: Annotated[str, DocumentedAs(Literal["typed", "grammar", "matched", "llm"])]
     hazard: KindName
     distance_m: float
     speed_kmh: float

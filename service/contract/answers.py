@@ -19,6 +19,7 @@ from service.contract.evaluation import Evaluation, EvaluationPage, EvaluationSu
 from service.contract.forecast import Expected, ExpectedTick, Judged, JudgedDecision
 from service.contract.health import Health, Lateness, Ready
 from service.contract.language import IntentGuide, LanguageGuide, Preview, Saying, TaughtPhrase
+from service.contract.long_answer import LongAnswer
 from service.contract.percept import Sensed, SensedThing
 from service.contract.problem import FieldProblemModel, ProblemDocument
 from service.contract.session import (
@@ -50,8 +51,9 @@ __all__ = [
     "Change", "ChoiceModel", "CommandResult", "ConfigChanged", "Correction", "Counterfactual",
     "CrashCause", "Decision", "DecisionPage", "End", "Evaluation", "EvaluationPage", "EvaluationSummary",
     "EventPage", "Expected", "ExpectedTick", "FieldProblemModel", "Hazard", "Health", "IntentGuide",
-    "Judged", "JudgedDecision", "LanguageGuide", "Lateness", "Link", "LogEvent", "Metrics", "Moment",
-    "MomentPage", "Moments", "MoveCounts", "Mover", "Option", "Parent", "Parsed", "PlayedTick", "Preview",
+    "Judged", "JudgedDecision", "LanguageGuide", "Lateness", "Link", "LogEvent", "LongAnswer", "Metrics",
+    "Moment", "MomentPage", "Moments", "MoveCounts", "Mover", "Option", "Parent", "Parsed", "PlayedTick",
+    "Preview",
     "ProblemDocument", "Ready", "RoadChange", "RoadChanges", "SavedMoment", "SavedMoments", "Saying",
     "Sensed", "SensedThing", "Session", "SessionMoment", "SessionPage", "SessionSummary", "Side",
     "StartedEvaluation", "State", "StepResult", "TaughtPhrase", "Ticket", "TimelineMark", "TimelinePage",

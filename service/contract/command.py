@@ -16,7 +16,7 @@ from service.contract.model import Answered, DocumentedAs, Model, Tick
 from service.contract.state import State
 
 ActionJson = Annotated[Mapping[str, Any], DocumentedAs(Action)]
-Interpreter = Annotated[str, DocumentedAs(Literal["grammar", "llm"])]
+Interpreter = Annotated[str, DocumentedAs(Literal["grammar", "matched", "llm"])]
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ class CommandResult(Answered):
     """What was done, in a sentence or two."""
     answer: Answer | None
     """The answer, if something was asked."""
-    source: Annotated[str, DocumentedAs(Literal["grammar", "llm", "typed"])]
+    source: Annotated[str, DocumentedAs(Literal["grammar", "matched", "llm", "typed"])]
     """What understood it: the grammar, or a language model, which interprets."""
     sequence: int
     corrections: tuple[Correction, ...]

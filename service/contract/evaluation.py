@@ -58,7 +58,9 @@ class Evaluation(Answered):
     config: Mapping[str, Any]
     """What the roads are drawn from; a search draws numbers of things and layouts itself."""
     same_road: bool
-    """Whether all episodes start from one road, that of the session it was asked of."""
+    """Whether all episodes start from one road: that of the session it was asked of, or of a scenario."""
+    scenario_name: str | None
+    """The scenario, or the moment that was saved, where one was named."""
     conditions: tuple[Mapping[str, Any], ...]
     """What is compared beside the planners, such as `{"weather": "fog"}`; empty where nothing is."""
     done: int

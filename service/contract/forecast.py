@@ -33,6 +33,10 @@ class Expected(Answered):
     exact: bool
     """Whether it is certain: false beyond the first tick where movers react to the ego."""
     ahead: tuple[ExpectedTick, ...]
+    path: tuple[Cell, ...] = ()
+    """The ego's own cells in the ticks to come, as many as were asked for, until its episode ends.
+
+    It is driven on in the simulator, as if nobody said anything."""
 
 
 @dataclass(frozen=True, slots=True)

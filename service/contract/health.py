@@ -19,6 +19,21 @@ class Lateness(Model):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ShardHealth(Model):
+    """One of several processes that hold sessions."""
+
+    shard: int
+    state: Annotated[str, DocumentedAs(Literal["up", "down"])]
+    """`down`: it is being replaced; its sessions come back with it."""
+    address: str | None
+    """Where it listens for the service's entry; None while it is down."""
+    process: int | None
+    restarts: int
+    sessions: int
+    watchers: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Health(Answered):
     """The service is alive, and what it holds."""
 
@@ -27,6 +42,8 @@ class Health(Answered):
     sessions: int
     watchers: int
     tick_lateness: Lateness
+    shards: tuple[ShardHealth, ...] = ()
+    """Empty where one process holds all sessions."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -38,6 +38,8 @@ class TaughtPhrase(Model):
     meaning: tuple[ActionJson, ...]
     sentence: str
     """The sentence that says the same."""
+    parameters: tuple[str, ...] = ()
+    """The words of the phrase in whose place a number is said."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,6 +53,11 @@ def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[Any]]) -> s
     return f"<p>{escape(caption)}</p><table><thead><tr>{top}</tr></thead><tbody>{body}</tbody></table>"
 
 
+def note(text: str) -> str:
+    """A line in small print."""
+    return f'<p style="font-size:smaller;opacity:0.75">{escape(text)}</p>'
+
+
 def picture(data: bytes, media_type: str) -> str:
     """A picture inside the page."""
     coded = base64.b64encode(data).decode("ascii")

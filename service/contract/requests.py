@@ -12,7 +12,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 from pydantic.warnings import UnsupportedFieldAttributeWarning
 
 from service.actions import Action, load
-from service.actions.evaluation import Varied
+from service.actions.evaluation import MapAxis, Varied
 from service.contract.model import Tick
 from service.contract.text import Name, StorableText, check_letters
 from service.http.config_schema import CONFIG_SCHEMA
@@ -153,10 +153,24 @@ class NewEvaluation(Sent):
         description="Values that are compared, such as `weather` of `clear` and `fog`: each combination is "
         "run from the same seeds, and all are compared with the first.",
     )
+    map: list[MapAxis] | None = Field(
+        None,
+        min_length=2,
+        max_length=2,
+        description="A success map over two of these numbers of things, with `runs` episodes in each cell. "
+        "`vary` may give their values, 2 to 12 each.",
+    )
     file: dict[str, Any] | None = Field(
         None,
         description="A scenario file, as JSON (see `roadtalk scenario schema`). Beside it: runs, planners, "
         "seed, language.",
+    )
+    scenario_name: str | None = Field(
+        None,
+        min_length=1,
+        max_length=80,
+        description="A scenario that comes with Roadtalk, such as `rush-hour`, or with `session` a moment "
+        "that was saved there. Beside it: runs, planners, vary, map, seed, language.",
     )
     session: str | None = Field(
         None, max_length=64, description="Roads as in this session; alone or with a text, runs, planners."

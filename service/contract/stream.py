@@ -166,7 +166,11 @@ class SubscribedMessage(Message):
     boxes: bool = True
     """Bounding boxes around what moves."""
     figures: bool = True
-    """The strip of figures along the upper edge."""
+    """The strip of figures along the upper edge, and the result across the middle."""
+    path: bool = True
+    """The way behind the vehicle, its move and the next one."""
+    forecast: bool = False
+    """Where movers are expected in the next ticks."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

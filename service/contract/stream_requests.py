@@ -59,7 +59,11 @@ class Subscribe(Sent):
     side: int = Field(480, ge=64, le=1080)
     theme: Literal["dark", "light"] = "dark"
     boxes: bool = Field(True, description="Bounding boxes around what moves.")
-    figures: bool = Field(True, description="The strip of figures along the upper edge.")
+    figures: bool = Field(
+        True, description="The strip of figures along the upper edge, and the result across the middle."
+    )
+    path: bool = Field(True, description="The way behind the vehicle, its move and the next one.")
+    forecast: bool = Field(False, description="Where movers are expected in the next ticks.")
 
 
 class Unsubscribe(Sent):

@@ -70,7 +70,7 @@ def case_link(case: Case, tick: int) -> str | None:
 
 def case_scenario(case: Case) -> dict[str, Any] | None:
     """The case as a scenario file of its name, as JSON values; None where such a file cannot hold it."""
-    from service.scenarios.begin import first_state
+    from service.scenarios.evaluation import first_state
     from service.scenarios.file import FORMAT as SCENARIO
     from service.scenarios.file import VERSION as SCENARIO_VERSION
     from service.scenarios.file import ScenarioFile

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache, partial
-from typing import Any
+from typing import Any, Final
 
 import orjson
 
@@ -15,6 +15,11 @@ from sim.evaluate.spec import Evaluation, Part
 from sim.falsify import Falsification
 from sim.falsify.stages import pieces, total
 
+_EPISODE_BYTES: Final = 12
+"""Figures of an episode by one planner, before they are compressed."""
+_WORLD_BYTES: Final = 80
+"""What is kept of a world that was looked at."""
+
 
 class EvaluationJobs:
     """Runs the parts of an evaluation; a piece is a stretch of episodes, and its weight their number."""
@@ -24,6 +29,10 @@ class EvaluationJobs:
     def total(self, spec: Spec) -> int:
         """See `JobKind.total`."""
         return int(spec["episodes"]) * max(1, len(spec.get("cases", ())))
+
+    def size(self, spec: Spec) -> int:
+        """See `JobKind.size`."""
+        return _EPISODE_BYTES * self.total(spec) * len(spec["planners"])
 
     def pieces(self, spec: Spec, parts: Parts) -> Sequence[Piece]:
         """See `JobKind.pieces`."""
@@ -53,6 +62,10 @@ class FindWorstJobs:
     def total(self, spec: Spec) -> int:
         """See `JobKind.total`."""
         return total(Falsification.from_json(spec))
+
+    def size(self, spec: Spec) -> int:
+        """See `JobKind.size`."""
+        return _WORLD_BYTES * Falsification.from_json(spec).worlds
 
     def pieces(self, spec: Spec, parts: Parts) -> Sequence[Piece]:
         """See `JobKind.pieces`."""

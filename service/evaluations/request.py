@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from collections.abc import Mapping
+from dataclasses import asdict, replace
 from typing import Any, Final
 
 from service.actions import Evaluate, FindWorst
+from service.evaluations.named import evaluation_of_name, first_seed, state_as_road
 from sim.actions import Scenario
 from sim.config import Config, ConfigError, Problem
 from sim.evaluate.cases import cases_of, problems_of
-from sim.evaluate.spec import MAX_EPISODES, Evaluation, EvaluationError
+from sim.evaluate.spec import Evaluation, EvaluationError
+from sim.evaluate.success_map import cells_of, problems_of_map
 from sim.falsify import Falsification
 from sim.falsify.spec import MAX_WORLDS
 from sim.planner_names import PROMISED
 from sim.randomness import MAX_SEED
 from sim.session.scenario import config_of_scenario, find_unavailable
 from sim.state import SimState
-from sim.types import Outcome
-from sim.world.notation import write
 
 RUNS: Final = 100
 """Episodes of each planner where no number is said."""
@@ -25,38 +26,56 @@ WORLDS: Final = 1_000
 """Worlds that are searched for failures where no number is said."""
 
 
+_NO_MOMENTS: Final[Mapping[str, SimState]] = {}
+
+
 def evaluation_of(
-    action: Evaluate, config: Config, state: SimState | None = None, seed: int | None = None
+    action: Evaluate,
+    config: Config,
+    state: SimState | None = None,
+    seed: int | None = None,
+    saved: Mapping[str, SimState] = _NO_MOMENTS,
 ) -> Evaluation:
     """The evaluation that is asked for; checked, down to whether its road has a way to the goal.
 
     Its roads are drawn from a configuration, or from the scenario that is said; with `road` it is the one of
-    `state`, from this moment on. The first seed is that of the configuration unless another is given.
+    `state`, from this moment on, and with `scenario_name` that of a scenario or of a moment in `saved`. The
+    first seed is that of the configuration unless another is given, and of a scenario its own.
     Raises `EvaluationError`.
     """
     if missing := unavailable_part(action):
         raise EvaluationError((missing,))
+    vary = _varied(action)
+    if problems := problems_of(vary) if action.map is None else problems_of_map(action.map, vary):
+        raise EvaluationError(problems)
+    runs = RUNS if action.runs is None else action.runs
+    if action.scenario_name is not None:
+        spec = evaluation_of_name(action, runs, config, saved, seed)
+    else:
+        spec = _evaluation_of_roads(action, runs, config, state, seed)
+    cases = cases_of(vary) if action.map is None else cells_of(action.map, vary, spec.config)
+    spec = replace(spec, cases=cases, axes=action.map)
+    spec.check_road()
+    return spec
+
+
+def _evaluation_of_roads(
+    action: Evaluate, runs: int, config: Config, state: SimState | None, seed: int | None
+) -> Evaluation:
+    """Many episodes on roads that are drawn, or on that of the session, under no conditions."""
     config = _config_of(action, config)
     world = None
     if action.road is not None:
-        if state is None or state.world.outcome is not Outcome.RUNNING or len(state.world.avs) != 1:
+        if state is None:
             raise EvaluationError((Problem("road", "has_no_start"),))
-        world = write(state.world)
-    planners = action.planners or (config.planner,)
-    vary = _varied(action)
-    if problems := problems_of(vary):
-        raise EvaluationError(problems)
-    first = config.seed if config.seed <= MAX_SEED - MAX_EPISODES else 0
-    spec = Evaluation(
-        planners=planners,
-        episodes=RUNS if action.runs is None else action.runs,
+        world = state_as_road(state)
+    return Evaluation(
+        planners=action.planners or (config.planner,),
+        episodes=runs,
         config=config,
-        seed=first if seed is None else seed,
+        seed=first_seed(config) if seed is None else seed,
         world=world,
-        cases=cases_of(vary),
     )
-    spec.check_road()
-    return spec
 
 
 def _varied(action: Evaluate) -> dict[str, tuple[Any, ...]]:

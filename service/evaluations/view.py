@@ -25,6 +25,7 @@ class JobView(Protocol):
     planners: Sequence[str]
     seed: int
     same_road: bool
+    scenario_name: str | None
     conditions: Sequence[Mapping[str, Any]]
 
     def done(self, worked: int) -> int:
@@ -59,7 +60,7 @@ class _EvaluationView:
         self.runs = self._spec.episodes
         self.planners: Sequence[str] = self._spec.planners
         self.seed, self.same_road = self._spec.seed, self._spec.world is not None
-
+        self.scenario_name = self._spec.scenario_name
         self.conditions: Sequence[Mapping[str, Any]] = [dict(case.said) for case in self._spec.cases]
 
     def done(self, worked: int) -> int:
@@ -91,6 +92,7 @@ class _FalsificationView:
     """A search for failures."""
 
     same_road: bool = False
+    scenario_name: str | None = None
     conditions: Sequence[Mapping[str, Any]] = ()
 
     def __init__(self, spec: Mapping[str, Any], language: str) -> None:

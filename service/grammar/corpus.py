@@ -50,6 +50,9 @@ TYPICAL: dict[str, float] = {
     "sensor_noise": 0.1,
     "detection_sensitivity": 0.8,
     "false_positive_rate": 0.05,
+    "sensor_latency": 1,
+    "slip_probability": 0.1,
+    "traffic_by_hour": 0.5,
     "sensor_range_m": 40,
     "safety_buffer": 2,
     "columns": 12,
@@ -171,6 +174,7 @@ def _questions() -> Iterator[dict[str, Any]]:
     for metric in get_args(MetricName):
         yield {"do": "ask", "about": "metrics", "metric": metric}
     yield {"do": "ask", "about": "what_if", "change": [{"do": "add", "kind": "pothole", "count": 5}]}
+    yield {"do": "ask", "about": "what_if", "change": [{"do": "drive", "move": "stay"}], "count": 5}
     for parameter in get_args(Parameter):
         yield {"do": "ask", "about": "setting", "parameter": parameter}
         for value in CHOICES.get(parameter, ()):
@@ -193,6 +197,14 @@ def _questions() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "history", "what": "choices", "tick": 5}
     yield {"do": "ask", "about": "history", "what": "choices", "ticks": 3}
     yield {"do": "ask", "about": "history", "what": "losses"}
+    for what in ("runner_up", "scores"):
+        yield {"do": "ask", "about": "history", "what": what}
+        yield {"do": "ask", "about": "history", "what": what, "tick": 5}
+        yield {"do": "ask", "about": "history", "what": what, "ticks": 3}
+    for what in ("waited", "differed", "before_crash", "lane_changes", "passed", "verdict"):
+        yield {"do": "ask", "about": "history", "what": what}
+    yield {"do": "ask", "about": "history", "what": "passed", "kind": "pedestrian"}
+    yield {"do": "ask", "about": "history", "what": "since", "seconds": 2.5}
     yield {"do": "ask", "about": "why", "move": "left", "instead": "right"}
     for how in get_args(DetailName):
         yield {"do": "ask", "about": "detail", "how": how}
@@ -205,10 +217,12 @@ def _questions() -> Iterator[dict[str, Any]]:
 def _ahead_and_back() -> Iterator[dict[str, Any]]:
     for move in Move:
         yield {"do": "ask", "about": "outlook", "what": "safe", "move": move}
-    for about in ("outlook", "blame", "planners"):
+    for about in ("outlook", "blame", "planners", "sight", "world"):
         for what in WHATS[about]:
-            if what != "safe":
+            if what not in ("safe", "coming", "difference"):
                 yield {"do": "ask", "about": about, "what": what}
+    yield {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3}
+    yield {"do": "ask", "about": "outlook", "what": "coming", "seconds": 2.5}
     for what in (*WHATS["blame"], "own"):
         about = "planners" if what == "own" else "blame"
         yield {"do": "ask", "about": about, "what": what, "tick": 12}
@@ -217,6 +231,7 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "planners", "what": what, "tick": 12}
         yield {"do": "ask", "about": "planners", "what": what, "planners": ["astar", "dijkstra"], "tick": 12}
     yield {"do": "ask", "about": "planners", "what": "here", "ticks": 3}
+    yield {"do": "ask", "about": "planners", "what": "difference", "planners": ["astar", "bfs"]}
     yield {"do": "ask", "about": "planners", "what": "method", "planner": "astar"}
     yield {"do": "ask", "about": "planners", "what": "character", "planner": "astar"}
 
@@ -230,6 +245,10 @@ def _rest() -> Iterator[dict[str, Any]]:
     yield {"do": "evaluate", "runs": 500, "planners": ["astar", "priority"]}
     yield {"do": "evaluate", "runs": 100, "planners": ["astar"], "road": "this"}
     yield {"do": "evaluate", "runs": 100, "vary": {"weather": ["fog", "clear"]}}
+    yield {"do": "evaluate", "runs": 100, "scenario_name": "rush-hour"}
+    yield {"do": "evaluate", "planners": ["astar", "dwa"], "scenario_name": "monday demo"}
+    yield {"do": "evaluate", "planners": ["astar"], "map": ["potholes", "vehicles"]}
+    yield {"do": "evaluate", "runs": 50, "map": ["vehicles", "barriers"]}
     for want in ("progress", "cancel"):
         yield {"do": "evaluation", "want": want}
     yield {"do": "find_worst", "runs": 200, "planner": "astar"}
@@ -273,6 +292,16 @@ def _rules() -> Iterator[dict[str, Any]]:
         {"fact": "count", "kind": "vehicle", "at_least": 20},
         {"fact": "count", "kind": "pothole", "at_most": 3},
         {"fact": "count", "kind": "barrier", "at_least": 4, "at_most": 4},
+        {"fact": "lane", "lane": "right", "no_longer": True},
+        {"fact": "goal", "closer_than_m": 20.0},
+        {"fact": "goal", "within_m": 20.0},
+        {"fact": "near", "kind": "pothole", "side": "ahead", "within_m": 10.0},
+        {"fact": "near", "side": "behind", "closer_than_m": 10.0},
+        {"fact": "near", "side": "ahead", "farther_than_m": 10.0},
+        *({"fact": "weather", "weather": weather} for weather in get_args(Weather)),
+        *({"fact": "time_of_day", "time_of_day": time} for time in get_args(TimeOfDay)),
+        {"fact": "weather", "weather": "rain", "no_longer": True},
+        {"fact": "time_of_day", "time_of_day": "night", "no_longer": True},
     ]
     for condition in conditions:
         yield {"do": "trigger", "when": condition, "then": [{"do": "pause"}]}

@@ -37,6 +37,8 @@ MESSAGES = frozenset(
         "which",
         "more_of_what",
         "together_or_apart",
+        "too_often",
+        "several_times",
     )
 )
 """What the engine itself says."""
@@ -159,7 +161,8 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
     frames = read_frames(documents.frames)
     free = frozenset(str(documents.frames.get("free", "")).split())
     answers = Answers.from_data(documents.answers)
-    written = lexicon.words | numbers.words()
+    rules = RuleWords.from_data(documents.rules)
+    written = lexicon.words | numbers.words() | rules.words
     contractions = Contractions.from_data(words["contractions"]).with_spellings(
         written, words["contractions"].get("spellings", ())
     )
@@ -176,7 +179,7 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         vague=int(words["vague"]),
         number_words=numbers.words(),
         answers=answers,
-        rules=RuleWords.from_data(documents.rules),
+        rules=rules,
         nouns=documents.frames["agree"],
         free=free,
         idle=idle(frames, free),

@@ -9,12 +9,11 @@ pure function of the text; no input raises.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
-from service.actions import Action, dump
+from service.actions import Action, Teach, dump
 from service.grammar.accounting import withhold
 from service.grammar.cache import ParseCache
 from service.grammar.compiled import check_fit, load_language
@@ -35,12 +34,14 @@ from service.grammar.paths import SEPARATOR
 from service.grammar.references import add_known
 from service.grammar.repairs import ALWAYS, DROPPED, Repair
 from service.grammar.rules import RuleReader
+from service.grammar.scenario_names import find_scenario_name
 from service.grammar.sentences import Sentences
 from service.grammar.small_talk import small_talk
 from service.grammar.span_patterns import REPAIR
 from service.grammar.suggestions import Meanings, Saying, Suggestions, meanings_of
+from service.grammar.teaching import read_teaching
 from service.grammar.tokens import Token, normalise, restore_marks, tokenise, with_text
-from service.grammar.topic import ALONE, Phrases, Topic
+from service.grammar.topic import ALONE, Phrases, TaughtWords, Topic
 from service.grammar.typos import Typos
 from service.grammar.work_budget import READ_STEPS, TOKEN_STEPS, BudgetExceededError, WorkBudget
 from service.resources import prompts_folder
@@ -92,7 +93,19 @@ class Language:
             parsed = self.read(text, topic, work, asking=True)
         except BudgetExceededError:
             return Refused(text, "not_understood", self.data.messages["too_involved"])
-        return (isinstance(parsed, Refused) and self._rules.read(text, topic, work)) or parsed
+        if not isinstance(parsed, Refused):
+            return parsed
+        return self._rules.read(text, topic, work) or read_teaching(self, text, topic, work) or parsed
+
+    def meaning(self, text: str, topic: Topic, work: WorkBudget) -> tuple[Action, ...] | None:
+        """What a text means that is a part of another; None where that is not certain."""
+        try:
+            parsed = self.read(text, topic, work, asking=False)
+            if isinstance(parsed, Refused):
+                parsed = self._rules.read(text, topic, work) or parsed
+        except BudgetExceededError:
+            return None
+        return parsed.actions if isinstance(parsed, Understood) else None
 
     def read(self, text: str, topic: Topic, work: WorkBudget, *, asking: bool) -> Parse:
         """`parse`; unless `asking`, what would be asked about is refused, and nothing is suggested.
@@ -116,7 +129,9 @@ class Language:
         if len(tokens) > MAX_TOKENS:
             return Refused(text, "not_understood", messages["too_long"].format(words=MAX_TOKENS))
         work.spend(READ_STEPS + TOKEN_STEPS * len(tokens))
-        kept = find_names(tokens, self._lexicon, restore_marks(text, plain), topic)
+        said = restore_marks(text, plain)
+        kept = find_names(tokens, self._lexicon, said, topic)
+        kept = kept or find_scenario_name(tokens, self._lexicon, said, topic)
         if kept and small_talk(self._scanner.scan(tokens, {})):
             kept = {}
         tokens, corrections = self._fix_typos(plain, tokens, kept, topic)
@@ -212,13 +227,19 @@ class Language:
         """One sentence that means exactly these actions. Raises `Unsayable`."""
         return self.sentences.sentence(actions)
 
-    def phrases(self, taught: Mapping[str, Sequence[Action]]) -> Phrases:
-        """Taught phrases and what they mean, ready to be found in sentences of this language."""
-        by_first: dict[str, list[tuple[tuple[str, ...], list[dict[str, Any]]]]] = {}
-        for phrase, actions in taught.items():
-            if words := self.words_of(phrase):
-                by_first.setdefault(words[0], []).append((words, dump(tuple(actions))))
-        return Phrases(by_first)
+    def sentence_of_meaning(self, taught: Teach) -> str:
+        """A sentence for what a phrase means, with its parameters by their names. Raises `Unsayable`."""
+        return self.sentences.meaning_of(taught)
+
+    def phrases(self, taught: Iterable[Teach]) -> Phrases:
+        """Taught phrases, ready to be found in sentences of this language."""
+        by_first: dict[str, list[TaughtWords]] = {}
+        for each in taught:
+            if words := self.words_of(each.phrase):
+                found = TaughtWords(words, dump(each.meaning), each.parameters or ())
+                by_first.setdefault(words[0], []).append(found)
+        tokens = lambda text: tokenise(normalise(text), self.data.contractions)  # noqa: E731
+        return Phrases(by_first, self.data.numbers.read, tokens)
 
     @cached_property
     def joiners(self) -> frozenset[str]:
@@ -282,9 +303,8 @@ class Language:
         corrections: list[Correction] = []
         in_names = {at for start, name in kept.items() for at in range(start, name.end)}
         if topic.phrases.by_first:
-            words = [token.text for token in tokens]
             for start in range(len(tokens)):
-                if (taught := topic.phrases.at(words, start)) is not None:
+                if (taught := topic.phrases.at(tokens, start)) is not None:
                     in_names.update(range(start, taught[0]))
         for at, token in enumerate(tokens):
             word = token.text

@@ -60,7 +60,7 @@ def find_names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topi
         return found
     if (begun := _forgets(tokens, lexicon, topic.phrases)) is not None:
         start, end = begun
-        quoted = _quoted(tokens, start, said)
+        quoted = quoted_name(tokens, start, said)
         return {start: quoted or Name(end, said[tokens[start].start : tokens[end - 1].end])}
     at, meaning = 0, 0
     while at < len(tokens):
@@ -68,20 +68,20 @@ def find_names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topi
         if word not in teaching and word not in capturing:
             at += 1
             continue
-        after = _longest(lexicon, tokens, at, TEACH)
+        after = longest(lexicon, tokens, at, TEACH)
         if after and not found and (name := _taught(tokens, after, lexicon, said)) is not None:
             found[after] = name
             meaning = at = _past_means(tokens, name.end, lexicon)
             continue
-        after = _longest(lexicon, tokens, at, CAPTURE)
-        another = max(_longest(lexicon, tokens, at, CHAT), _longest(lexicon, tokens, at, IDIOM))
+        after = longest(lexicon, tokens, at, CAPTURE)
+        another = max(longest(lexicon, tokens, at, CHAT), longest(lexicon, tokens, at, IDIOM))
         if after < another:  # "call it a day" names nothing
             at += 1
             continue
         if not after or not (at == meaning or _begins(tokens, at, lexicon)):
             at += 1
             continue
-        name = _quoted(tokens, after, said)
+        name = quoted_name(tokens, after, said)
         if name is None:
             name = _open(tokens, after, lexicon, said)
             if name is not None and not _fits(tokens, at, after, name.end, lexicon):
@@ -94,6 +94,17 @@ def find_names(tokens: Sequence[Token], lexicon: Lexicon, said: str, topic: Topi
     return found
 
 
+def find_taught(tokens: Sequence[Token], lexicon: Lexicon, said: str) -> tuple[int, Name, int] | None:
+    """A phrase that is taught: where it begins, the phrase, and where its meaning begins."""
+    for at in range(len(tokens)):
+        after = longest(lexicon, tokens, at, TEACH)
+        if after and (name := _taught(tokens, after, lexicon, said)) is not None:
+            return after, name, _past_means(tokens, name.end, lexicon)
+        if not _is(lexicon, tokens[at], GLUE):
+            return None
+    return None
+
+
 def _forgets(tokens: Sequence[Token], lexicon: Lexicon, phrases: Phrases) -> tuple[int, int] | None:
     """Where the phrase to be forgotten is: one in quotation marks, or one that was taught."""
     words = [token.text for token in tokens]
@@ -103,12 +114,12 @@ def _forgets(tokens: Sequence[Token], lexicon: Lexicon, phrases: Phrases) -> tup
         for start in sorted(ends, reverse=True):
             if start < len(tokens) and words[start] == QUOTE:
                 return start, len(tokens)
-            if start < len(tokens) and (taught := phrases.at(words, start)) is not None:
-                return start, taught[0]
+            if start < len(tokens) and (end := phrases.named_at(words, start)) is not None:
+                return start, end
     return None
 
 
-def _quoted(tokens: Sequence[Token], at: int, said: str) -> Name | None:
+def quoted_name(tokens: Sequence[Token], at: int, said: str) -> Name | None:
     """The name between quotation marks at `at`, or None."""
     if at >= len(tokens) or tokens[at].text != QUOTE:
         return None
@@ -142,11 +153,11 @@ def end_of_name(tokens: Sequence[Token], start: int, end: int, lexicon: Lexicon)
 
 def _taught(tokens: Sequence[Token], at: int, lexicon: Lexicon, said: str) -> Name | None:
     """The phrase that starts at `at` and ends before "I mean" and what separates it."""
-    quoted = _quoted(tokens, at, said)
+    quoted = quoted_name(tokens, at, said)
     if quoted is not None:
         return quoted
     for end in range(at + 1, len(tokens)):
-        if _longest(lexicon, tokens, end, MEANS):
+        if longest(lexicon, tokens, end, MEANS):
             while end - 1 > at and _is(lexicon, tokens[end - 1], STARTS_AFTER):
                 end -= 1
                 if _parts_requests(lexicon, tokens[end]):
@@ -164,12 +175,12 @@ def _parts_requests(lexicon: Lexicon, token: Token) -> bool:
 def _past_means(tokens: Sequence[Token], at: int, lexicon: Lexicon) -> int:
     """Where what a taught phrase means begins, the phrase ending at `at`."""
     for start in range(at, len(tokens)):
-        if end := _longest(lexicon, tokens, start, MEANS):
+        if end := longest(lexicon, tokens, start, MEANS):
             return end
     return len(tokens)
 
 
-def _longest(lexicon: Lexicon, tokens: Sequence[Token], at: int, concept: str) -> int:
+def longest(lexicon: Lexicon, tokens: Sequence[Token], at: int, concept: str) -> int:
     """The end of the longest phrase at `at` with this concept; 0 when there is none."""
     if tokens[at].text not in lexicon.begins.get(concept, ()):
         return 0

@@ -7,11 +7,11 @@ edges from end to end. So a phrase that belongs to one kind of request cannot hi
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from service.grammar.lexicon import SECOND, Lexicon, Sense
+from service.grammar.lexicon import SECOND, Lexicon, Match, Node, Sense
 from service.grammar.numbers import Found, NumberWords
 from service.grammar.patterns import Words
 from service.grammar.tokens import Token
@@ -31,6 +31,7 @@ class Name:
 
     end: int
     text: str
+    concept: str = NAME
 
 
 class Edge(NamedTuple):
@@ -140,26 +141,35 @@ class Scanner:
         numbers: dict[int, Found] = {}
         ordinals: dict[int, int] = {}
         for at, token in enumerate(tokens):
-            if self._numbers.may_begin(token) and (found := self._numbers.read(tokens, at)) is not None:
-                numbers[at] = found
+            if self._numbers.may_begin(token) and (read := self._numbers.read(tokens, at)) is not None:
+                numbers[at] = read
             if (nth := self._numbers.ordinal(token)) is not None:
                 ordinals[at] = nth
         lattice = Lattice(len(tokens), [[] for _ in tokens])
         edges, concepts = lattice.edges, lattice.concepts
+        plain = [
+            None if names else self._lexicon.plain_matches(tokens, at, numbers, ordinals)
+            for at in range(len(tokens))
+        ]
+        other = {
+            at: self._lexicon.matches(tokens, at, numbers, ordinals)
+            for at, found in enumerate(plain)
+            if found is None and at not in names
+        }
+        ended = _ended(plain, other.values())
         at = 0
         while at < len(tokens):
             if (name := names.get(at)) is not None:
-                lattice.edges[at].append(Edge(at, name.end, Sense(NAME, name.text)))
+                lattice.edges[at].append(Edge(at, name.end, Sense(name.concept, name.text)))
                 at = name.end
                 continue
-            plain = None if names else self._lexicon.plain_matches(tokens, at, numbers, ordinals)
-            if plain is not None:
-                for end, node in plain:
-                    pairs, of = node.meant
+            if (found := plain[at]) is not None:
+                for end, node in found:
+                    pairs = node.meant.ended_by(ended)
                     edges[at] += [_new(Edge, (at, end, sense, part)) for sense, part in pairs]
-                    concepts |= of
+                    concepts |= node.meant.concepts
             else:
-                for end, senses, part in self._lexicon.matches(tokens, at, numbers, ordinals):
+                for end, senses, part in other[at]:
                     if not any(end > start > at for start in names):
                         edges[at].extend([Edge(at, end, sense, part) for sense in senses])
                         concepts.update([sense.concept for sense in senses])
@@ -191,6 +201,17 @@ class Scanner:
         yield best
         for dimension in also:
             yield Edge(at, best.end, Sense(dimension, best.sense.value))
+
+
+def _ended(
+    plain: Sequence[Sequence[tuple[int, Node]] | None], other: Iterable[Sequence[Match]]
+) -> frozenset[Words]:
+    """The split phrases whose second half stands in a sentence, given all that begins at each token."""
+    ended = {part for found in other for _, senses, part in found if part and senses[0].concept == SECOND}
+    for found in plain:
+        for _, node in found or ():
+            ended.update([part for sense, part in node.meant.whole if part])
+    return frozenset(ended)
 
 
 def _inside_number(numbers: Mapping[int, Found], at: int) -> bool:

@@ -8,7 +8,7 @@ which only counts where that form is in place ("would you mind adding").
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -25,8 +25,52 @@ class Sense(NamedTuple):
     form: str = ""
 
 
+Match = tuple[int, Sequence[Sense], Words]
+"""The end token of a phrase, its senses, and for half of a split phrase the whole of it."""
+
+SECOND = "second_part"
+"""Concept of the second half of a split phrase ("away" of "take ... away")."""
+
 Meant = tuple[tuple[Sense, Words], ...]
 """Senses, each with the whole phrase where it is half of a split one."""
+
+
+@dataclass(frozen=True, slots=True)
+class PhraseMeaning:
+    """All that one phrase means. "set" begins hundreds of split phrases, of which a sentence ends few."""
+
+    pairs: Meant
+    """all senses"""
+    whole: Meant
+    """the same without those it has as the first half of a split phrase"""
+    whole_at: tuple[int, ...]
+    """where those stand in `pairs`"""
+    first_halves: Mapping[Words, tuple[int, ...]]
+    """where the others stand, by the whole phrase"""
+    concepts: frozenset[str]
+    """the concepts of all of them"""
+
+    @classmethod
+    def of(cls, pairs: Sequence[tuple[Sense, Words]]) -> PhraseMeaning:
+        """The meaning of senses, each with the whole phrase where it is half of one."""
+        halves: dict[Words, tuple[int, ...]] = {}
+        whole_at: list[int] = []
+        for at, (sense, part) in enumerate(pairs):
+            if part and sense.concept != SECOND:
+                halves[part] = (*halves.get(part, ()), at)
+            else:
+                whole_at.append(at)
+        whole = tuple(pairs[at] for at in whole_at)
+        concepts = frozenset(sense.concept for sense, _ in pairs)
+        return cls(tuple(pairs), whole, tuple(whole_at), halves, concepts)
+
+    def ended_by(self, ended: Collection[Words]) -> Meant:
+        """The senses without first halves of other split phrases than these, in the same order."""
+        halves = self.first_halves
+        begun = [at for whole in ended if whole in halves for at in halves[whole]]
+        if not begun:
+            return self.whole
+        return tuple([self.pairs[at] for at in sorted((*self.whole_at, *begun))])
 
 
 @dataclass(slots=True)
@@ -37,23 +81,16 @@ class Node:
     senses: list[Sense] | None = None
     split: dict[Words, list[Sense]] | None = None
     """Whole split phrase → the senses this half of it has."""
-    _meant: tuple[Meant, frozenset[str]] | None = None
+    _meant: PhraseMeaning | None = None
 
     @property
-    def meant(self) -> tuple[Meant, frozenset[str]]:
-        """All that the phrase which ends here means, and the concepts; for a lexicon that is complete."""
+    def meant(self) -> PhraseMeaning:
+        """All that the phrase which ends here means; for a lexicon that is complete."""
         if self._meant is None:
             pairs: list[tuple[Sense, Words]] = [(sense, ()) for sense in self.senses or ()]
             pairs += [(sense, whole) for whole, senses in (self.split or {}).items() for sense in senses]
-            self._meant = tuple(pairs), frozenset(sense.concept for sense, _ in pairs)
+            self._meant = PhraseMeaning.of(pairs)
         return self._meant
-
-
-Match = tuple[int, Sequence[Sense], Words]
-"""The end token of a phrase, its senses, and for half of a split phrase the whole of it."""
-
-SECOND = "second_part"
-"""Concept of the second half of a split phrase ("away" of "take ... away")."""
 
 
 class Lexicon:

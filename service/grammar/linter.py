@@ -31,6 +31,7 @@ ENGINE_CONCEPTS = frozenset(
     | {
         "refers",
         "taught",
+        "taught_with_numbers",
         "repeated",
         "repair",
         "contrast",
@@ -41,6 +42,7 @@ ENGINE_CONCEPTS = frozenset(
         "detail",
         "spoken_tick",
         "had_been",
+        "scenario_name_end",
         "would_have",
         FROM_RIGHT,
         BEGINS_NEGATION,

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from service.grammar.free_text import QUOTE, STARTS_AFTER, end_of_name
-from service.grammar.lattice import Name
+from service.grammar.lattice import NAME, Name
 from service.grammar.lexicon import Lexicon
 from service.grammar.parse_types import Choice, Parse, Understood
 from service.grammar.tokens import Token
@@ -26,7 +26,7 @@ def shorter_names(
 ) -> list[Choice]:
     """The readings in which a name ends before a request; first the one of the whole name. Else none."""
     for start, name in names.items():
-        if tokens[start].text == QUOTE:
+        if tokens[start].text == QUOTE or name.concept != NAME:
             continue
         for at in range(start + 1, name.end - 1):
             if not any(sense.concept == STARTS_AFTER for sense in lexicon.senses_of((tokens[at].text,))):

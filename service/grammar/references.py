@@ -41,6 +41,7 @@ GOAL = "goal_mark"
 """Concept of words before a destination: "to"."""
 
 TAUGHT = "taught"
+TAUGHT_WITH_NUMBERS = "taught_with_numbers"
 
 _REFERRING = frozenset(
     (REFERS, "thing.that", "thing.those", "thing.the_one", "thing.last", "thing.last_counted")
@@ -57,10 +58,15 @@ _OPPOSITE = {"left": "right", "right": "left"}
 def parse_in_topic(parse: Callable[[str, Topic], Parse], text: str, topic: Topic) -> Parse:
     """What a text means; a taught phrase counts only where the language has no meaning of its own for it.
 
-    So "carry on" stays what it is when "carry" was taught.
+    So "carry on" stays what it is when "carry" was taught. A phrase with a number comes before a bare count
+    of things, which is all that it may mean otherwise: "wall 5".
     """
     if not topic.phrases.by_first:
         return parse(text, topic)
+    if counted := topic.phrases.with_numbers_in(text):
+        known = parse(text, topic)
+        if not isinstance(known, Refused) or any(each.actions is None for each in counted):
+            return known
     alone = parse(text, replace(topic, phrases=Phrases()))
     if isinstance(alone, Refused) and alone.reason == "not_understood":
         return parse(text, topic)
@@ -73,14 +79,17 @@ def parse_in_topic(parse: Callable[[str, Topic], Parse], text: str, topic: Topic
 
 def add_known(lattice: Lattice, tokens: Sequence[Token], topic: Topic) -> None:
     """Edges for ids, and for phrases that were taught."""
-    words = [token.text for token in tokens]
     phrases = topic.phrases if topic.phrases.by_first else None
     for at, token in enumerate(tokens):
         if token.id:
             lattice.edges[at].append(thing_edge(at, at + 1, (token.text,)))
-        taught = None if phrases is None else phrases.at(words, at)
-        if taught is not None:
-            lattice.edges[at].append(Edge(at, taught[0], Sense(TAUGHT, taught[1])))
+        taught = None if phrases is None else phrases.at(tokens, at)
+        if taught is not None and taught.has_numbers:
+            for inside in range(at, taught.end):  # its words say nothing else: "wall 5"
+                lattice.edges[inside] = [edge for edge in lattice.edges[inside] if edge.end > taught.end]
+        if taught is not None and taught.actions is not None:
+            for concept in (TAUGHT, TAUGHT_WITH_NUMBERS) if taught.has_numbers else (TAUGHT,):
+                lattice.edges[at].append(Edge(at, taught.end, Sense(concept, taught.actions)))
 
 
 def add_referents(lattice: Lattice, topic: Topic) -> list[Unclear]:

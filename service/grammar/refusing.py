@@ -31,12 +31,20 @@ class Refusing(Utterance):
         for clause in clauses:
             try:
                 load(clause.actions)
-            except ValidationError:
+            except ValidationError as error:
                 phrase = self._written(clause.start, clause.end)
-                return self._refusal(
-                    "impossible", self._messages["impossible"].format(phrase=phrase), (phrase,)
-                )
+                return self._refusal("impossible", self._why_impossible(error, phrase), (phrase,))
         return self._refusal("impossible", self._messages["impossible"].format(phrase=self._text))
+
+    def _why_impossible(self, error: ValidationError, phrase: str) -> str:
+        """The message for values that cannot be; where a number is too small or too large, with its limit."""
+        for each in error.errors(include_url=False):
+            for bound, key in (("ge", "too_small"), ("le", "too_large")):
+                limit = each.get("ctx", {}).get(bound)
+                if limit is not None and key in self._messages:
+                    told = f"{limit:,}".replace(",", self._messages.get("thousands", ","))
+                    return self._messages[key].format(phrase=phrase, limit=told)
+        return self._messages["impossible"].format(phrase=phrase)
 
     def _gap(self, unknown: Sequence[int], failed: Fragment | None) -> Gap | None:
         """The smallest stretches that hold what is unknown, or make a part fail, and what is left without."""

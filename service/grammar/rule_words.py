@@ -22,9 +22,16 @@ COMMAND = "command"
 """Whole sentences about rules."""
 JOINT = "joint"
 """What may stand between a condition and the rest."""
+REPEAT = "repeat"
+"""How often a request is done at once: "three times"."""
+ECHO = "echo"
+"""A whole sentence that asks for the one before it several times: "do that three times"."""
+SAME = "same"
+"""A request that stands for the last one: "do that every 10 ticks"."""
 
-_MOMENT = (WHEN, ONCE, UNTIL)
+_SENTENCES = (KEEP, COMMAND, ECHO)
 _SLOT = "$"
+_QUESTION_MARK = "?"
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +41,18 @@ class Phrase:
     pattern: Choice
     value: Any
     openings: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
+class _Asks:
+    """How a question begins, and what follows where it is a polite request."""
+
+    opening: Choice
+    unless: Choice
+
+    @staticmethod
+    def of(patterns: Patterns, data: Mapping[str, str]) -> _Asks:
+        return _Asks(patterns.read(data["with"]), patterns.read(data["unless"]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +70,12 @@ class RuleWords:
     """how a request is begun whose verb is in the form after `keep`: "would you mind" """
     begins: frozenset[str] = frozenset()
     """words without one of which a sentence has nothing to do with rules"""
+    vague: Choice | None = None
+    """how long and how often in no figures: "for a while" """
+    asks: _Asks | None = None
+    """how questions begin that ask what would be done"""
+    apart: Choice | None = None
+    """conditions that may be taken for a part of a request where they stand in its midst"""
 
     @classmethod
     def from_data(cls, data: Mapping[str, Any]) -> RuleWords:
@@ -59,10 +84,12 @@ class RuleWords:
         phrases = {
             part: tuple(_phrases(patterns, entries)) for part, entries in data.get("phrases", {}).items()
         }
-        if odd := set(phrases) - {*PARTS, KEEP, COMMAND, JOINT}:
+        if odd := set(phrases) - {*PARTS, *_SENTENCES, JOINT, REPEAT, SAME}:
             raise PatternError(f"rules.yaml has no use for {', '.join(sorted(odd))}")
         openers = {part: patterns.read(text) for part, text in data.get("openers", {}).items()}
-        spoken = (phrase.openings for part in (*PARTS, KEEP, COMMAND) for phrase in phrases.get(part, ()))
+        spoken = (
+            phrase.openings for part in (*PARTS, *_SENTENCES, REPEAT) for phrase in phrases.get(part, ())
+        )
         opened = (patterns.openings(opener) for opener in openers.values())
         return cls(
             patterns,
@@ -70,8 +97,35 @@ class RuleWords:
             openers,
             tuple(_phrases(patterns, data.get("clauses", ()))),
             data.get("asks_as", ""),
-            frozenset(chain.from_iterable((*spoken, *opened))) - {"{}"},
+            frozenset(chain.from_iterable((*spoken, *opened, data.get("counted", "").split()))) - {"{}"},
+            patterns.read(data["vague"]) if "vague" in data else None,
+            _Asks.of(patterns, data["asks"]) if "asks" in data else None,
+            patterns.read(data["apart"]) if "apart" in data else None,
         )
+
+    @property
+    def words(self) -> frozenset[str]:
+        """All words that the patterns have."""
+        return frozenset(self.patterns.words)
+
+    def stands_apart(self, said: Sentence, at: int) -> bool:
+        """Whether a condition at a token may not stand amid a request: "remove every second cone"."""
+        return self.apart is not None and any(self.patterns.matches(self.apart, said, at))
+
+    def is_vague(self, said: Sentence) -> bool:
+        """Whether something is said that no rule can do as it is said: "for a while"."""
+        if self.vague is None:
+            return False
+        return any(any(self.patterns.matches(self.vague, said, at)) for at in range(len(said.tokens)))
+
+    def asks_about_driving(self, said: Sentence) -> bool:
+        """Whether a sentence asks what would be done, as "would you brake if it rains?" does."""
+        asked = self.asks is not None and any(token.text == _QUESTION_MARK for token in said.tokens)
+        if not asked or self.asks is None:
+            return False
+        ends = {end for end, _ in self.patterns.matches(self.asks.opening, said, 0)}
+        polite = (any(self.patterns.matches(self.asks.unless, said, end)) for end in ends)
+        return bool(ends) and not any(polite)
 
     def at(self, part: str, said: Sentence, at: int) -> Iterator[tuple[int, Any]]:
         """The ends of all phrases of a part that begin at a token, with what each means."""

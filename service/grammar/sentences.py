@@ -8,8 +8,11 @@ what the language cannot say raises `Unsayable` rather than becoming something n
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import asdict
+
+from pydantic import ValidationError
 
 from service.actions import (
     Action,
@@ -34,7 +37,10 @@ from service.actions import (
     Teach,
     Undo,
     Varied,
+    dump,
+    load,
 )
+from service.actions.parameters import filled, paths
 from service.grammar.sentences_of_rules import RuleSentences
 from service.grammar.sentences_of_things import Unsayable, number
 from sim.actions import (
@@ -56,11 +62,15 @@ from sim.actions import (
     Where,
 )
 from sim.planner_names import BUILT_IN, canonical
+from sim.types import Move
 
 __all__ = ["Sentences", "Unsayable", "number", "quoted"]
 
 _FULL_SPEED = ("playback_speed", "max")
 """The one number that may also be a word."""
+
+_NUMBERS_FOR_NAMES = (41, 60)
+"""Numbers of which those that a meaning does not have stand for parameters until their names do."""
 
 _KEPT_APART = (Teach, Forget)
 
@@ -103,6 +113,24 @@ class Sentences(RuleSentences):
             whole += self._request(action)
             before = action
         return whole
+
+    def meaning_of(self, taught: Teach) -> str:
+        """What a phrase means, with its parameters by their names. Raises `Unsayable`."""
+        if taught.parameters is None:
+            return self.sentence(taught.meaning)
+        meaning = dump(taught.meaning)
+        used = {value for value in paths(meaning).values() if isinstance(value, int)}
+        free = [each for each in range(*_NUMBERS_FOR_NAMES) if each not in used]
+        names = {each.name: stands_in for each, stands_in in zip(taught.parameters, free, strict=False)}
+        try:
+            said = self.sentence(load(filled(meaning, taught.parameters, names)))
+        except ValidationError:
+            raise Unsayable("no number that the sentence does not have") from None
+        for name, stands_in in names.items():
+            said, put = re.subn(rf"\b{stands_in}\b", name, said)
+            if not put:
+                raise Unsayable("a parameter that the sentence does not name")
+        return said
 
     def _request(self, action: Action) -> str:
         match action:
@@ -185,7 +213,7 @@ class Sentences(RuleSentences):
             case Record():
                 return self._word("record", action.on)
             case Teach():
-                return self._say("teach", phrase=quoted(action.phrase), meaning=self.sentence(action.meaning))
+                return self._say("teach", phrase=quoted(action.phrase), meaning=self.meaning_of(action))
             case Forget():
                 return self._say("forget", phrase=quoted(action.phrase))
             case _:
@@ -247,6 +275,10 @@ class Sentences(RuleSentences):
                 if (ask.tick, ask.until) != (None, None):
                     raise Unsayable("a pattern is one of the whole episode")
                 return self._say("pattern") if ask.move is None else self._word("patterns", ask.move)
+            case "what_if" if ask.count is not None:
+                if ask.change != (Drive(move=Move.STAY),):
+                    raise Unsayable("what is done several times running is standing still")
+                return self._say("what_if_stand", count=ask.count)
             case "what_if":
                 return self._say("what_if", change=self.sentence(ask.change or ()))
             case "scene" if ask.kind is not None and ask.count is not None:
@@ -263,7 +295,7 @@ class Sentences(RuleSentences):
                 return self._say("term", term=self._word("terms", ask.term))
             case "history":
                 return self._history(ask)
-            case "outlook" | "blame" | "planners":
+            case "outlook" | "blame" | "planners" | "sight" | "world":
                 return self._of_what(ask)
             case "changes" if ask.count is not None or ask.tick is not None:
                 if ask.count is not None and ask.tick is not None:
@@ -326,29 +358,47 @@ class Sentences(RuleSentences):
         if ask.what == "similar":
             key += "_to" if ask.tick is not None else ""
             key += "" if ask.count is None else "_one" if ask.count == 1 else "_count"
-        if ask.what == "choices" and ask.tick is not None:
+        if ask.what in ("choices", "runner_up", "scores") and ask.tick is not None:
             key += "_at"
         if ask.ticks is not None:
             key += "_ticks" if ask.ticks != 1 else "_tick"
+        key += "" if ask.seconds is None else "_seconds"
+        key += "" if ask.kind is None else "_kind"
+        seconds = "" if ask.seconds is None else number(ask.seconds)
+        things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
         return self._word("history", key).format(
-            tick=ask.tick, until=ask.until, ticks=ask.ticks, count=ask.count
+            tick=ask.tick, until=ask.until, ticks=ask.ticks, count=ask.count, seconds=seconds, things=things
         )
 
     def _of_what(self, ask: Ask) -> str:
-        """A question of one of several about the same: what lies ahead, blame, planners."""
+        """A question of one of several about the same: ahead, blame, planners, sensing, this world."""
         named = ask.planners or (() if ask.planner is None else (ask.planner,))
         planners = self._words["and"].join([self._value("planner", planner) for planner in named])
         key = str(ask.what) + ("_of" if named else "") + ("" if ask.tick is None else "_tick")
         key += "" if ask.ticks is None else "_ticks"
+        key += "" if ask.seconds is None else "_seconds"
+        seconds = "" if ask.seconds is None else number(ask.seconds)
         move = "" if ask.move is None else self._word("asked", ask.move)
-        return self._word(ask.about, key).format(planners=planners, tick=ask.tick, ticks=ask.ticks, move=move)
+        return self._word(ask.about, key).format(
+            planners=planners, tick=ask.tick, ticks=ask.ticks, seconds=seconds, move=move
+        )
 
     def _evaluate(self, action: Evaluate) -> str:
         planners = [self._value("planner", planner) for planner in action.planners or ()]
         named = self._say("evaluate_with", planners=self._words["and"].join(planners)) if planners else ""
         given = [each for each in (action.scenario, *_each_varied(action.vary)) if each is not None]
         parts = self._words["listed"].join([self._parts(each) for each in given])
+        if action.map is not None:
+            if action.road is not None or action.scenario_name is not None or parts:
+                raise Unsayable("a success map of one road or scenario, or under conditions")
+            return self._success_map(action.map, planners, action.runs)
         scenario = self._say("evaluate_on", parts=parts) if parts else ""
+        if action.scenario_name is not None:
+            if action.road is not None:
+                raise Unsayable("an evaluation of a scenario and of this road")
+            key = "evaluate_named" if action.runs is None else "evaluate_named_times"
+            name = quoted(action.scenario_name)
+            return self._say(key, name=name, runs=action.runs, planners=named, scenario=scenario)
         if action.road is not None:
             if action.runs is None or parts:
                 raise Unsayable("an evaluation of this road without a number of runs, or with a scenario")
@@ -357,6 +407,15 @@ class Sentences(RuleSentences):
             return self._say("evaluate", runs=action.runs, planners=named, scenario=scenario)
         key = "evaluate_planners" if planners else "evaluate_scenario"
         return self._say(key, planners=named, scenario=scenario)
+
+    def _success_map(self, axes: Sequence[str], planners: Sequence[str], runs: int | None) -> str:
+        joint = self._words["and"]
+        return self._say(
+            "evaluate_map",
+            axes=joint.join(self._word("map_axes", name) for name in axes),
+            planners=self._say("evaluate_map_for", planners=joint.join(planners)) if planners else "",
+            runs="" if runs is None else self._say("evaluate_map_runs", runs=runs),
+        )
 
     def _parts(self, parts: Scenario | ScenarioParts) -> str:
         words = self._words["part"]

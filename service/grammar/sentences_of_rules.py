@@ -7,6 +7,10 @@ from typing import Any
 
 from service.grammar.sentences_of_things import ThingSentences, Unsayable, number
 from sim.actions import Cancel, Condition, Trigger
+from sim.session.conditions import SETTINGS
+
+_NOT_NAMED = ("fact", "side")
+"""Parts of a condition that the name of its words leaves out."""
 
 
 class RuleSentences(ThingSentences):
@@ -25,7 +29,7 @@ class RuleSentences(ThingSentences):
     def _condition(self, form: str, condition: Condition) -> str:
         """A condition in a form of its own, since some stand after "when" and others do not."""
         said = {each.name: getattr(condition, each.name) for each in fields(condition)}
-        named = sorted(name for name, value in said.items() if value is not None and name != "fact")
+        named = sorted(name for name, value in said.items() if value is not None and name not in _NOT_NAMED)
         key = "_".join([condition.fact, *named])
         if condition.at_least is not None and condition.at_least == condition.at_most:
             key = "count_exactly"
@@ -34,9 +38,14 @@ class RuleSentences(ThingSentences):
         }
         if condition.kind is not None:
             words["thing"], words["things"] = self._entry("things", condition.kind)[:2]
+            words["one"] = self._words.get("rule_one", {}).get(condition.kind, words["thing"])
         if condition.lane is not None:
             lanes = self._words.get("rule_lanes", {})
             words["lane"] = lanes.get(condition.lane) or self._say("rule_lane", lane=condition.lane)
+        words["side"] = "" if condition.side is None else self._word("rule_sides", condition.side)
+        if condition.fact in SETTINGS:
+            form_of_setting = "rule_no_longer" if condition.no_longer else "rule_is"
+            key, words["is"] = "setting", self._word(form_of_setting, said[condition.fact])
         return self._word(form, key).format(**words)
 
     def _cancel(self, action: Cancel) -> str:

@@ -18,6 +18,8 @@ from service.grammar.paths import SEPARATOR
 from service.grammar.sentence_openings import IF, TEACH, THEN_WHAT, WHAT_IF, WITHOUT, Beginnings
 
 HAD_MOVED = "had_moved"
+STANDS = "stand_ticks"
+"""Concept of whole questions that suppose some ticks of standing still."""
 DRIVE = "drive"
 HAD_BEEN = "had_been"
 """Concept of words that suppose something of a past moment: "had not been there"."""
@@ -86,12 +88,20 @@ def _may_go_on(question: Clause, clause: Clause) -> bool:
 
 
 def _move_supposed(lattice: Lattice, start: int, end: int, divide: Divide) -> Divided | None:
-    """The question about another move in the past, which is a frame of its own; None for another sentence."""
-    if HAD_MOVED not in lattice.concepts:
+    """The question about another move in the past, or about standing still for some ticks.
+
+    Each is a frame of its own; None for another sentence.
+    """
+    if lattice.concepts.isdisjoint((HAD_MOVED, STANDS)):
         return None
     tried = divide(start, _before_then_what(lattice, start, end), frozenset())
     said = [value for clause in tried.clauses for value in clause.actions]
-    if tried.failed is not None or not said or "move" not in said[0] or said[0].get("about") != WHAT_IF:
+    if (
+        tried.failed is not None
+        or not said
+        or {"move", "count"}.isdisjoint(said[0])
+        or said[0].get("about") != WHAT_IF
+    ):
         return None
     if said[1:] and not asks(said[1:2]):  # what is asked for next may be supposed as well
         return None

@@ -6,30 +6,107 @@ topic. An empty one is that of a sentence that stands alone.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
-from service.actions import Action
+from pydantic import ValidationError
+
+from service.actions import Action, load
+from service.actions.parameters import PhraseParameter, filled
+from service.grammar.numbers import Found
+from service.grammar.tokens import Token
 from sim.actions import Where
 
 Words = tuple[str, ...]
+Meant = list[dict[str, Any]]
+
+
+@dataclass(frozen=True, slots=True)
+class TaughtWords:
+    """A taught phrase: its words, its actions as JSON values, and the numbers that are said with it."""
+
+    words: Words
+    actions: Meant
+    parameters: tuple[PhraseParameter, ...] = ()
+
+    def filled(self, numbers: Mapping[str, int | float]) -> Meant | None:
+        """The actions with numbers; None where they cannot be so many."""
+        if not self.parameters:
+            return self.actions
+        made = filled(self.actions, self.parameters, numbers)
+        try:
+            load(made)
+        except ValidationError:
+            return None
+        return made
+
+
+class FoundPhrase(NamedTuple):
+    """A taught phrase in a sentence: the token it ends before, what it means, whether it has numbers.
+
+    It means nothing with a number that is impossible: "wall 0".
+    """
+
+    end: int
+    actions: Meant | None
+    has_numbers: bool
 
 
 @dataclass(frozen=True, slots=True)
 class Phrases:
-    """Taught phrases, ready to be found: by their first word, the words and the actions as JSON values."""
+    """Taught phrases, ready to be found."""
 
-    by_first: Mapping[str, Sequence[tuple[Words, list[dict[str, Any]]]]] = field(default_factory=dict)
+    by_first: Mapping[str, Sequence[TaughtWords]] = field(default_factory=dict)
+    number: Callable[[Sequence[Token], int], Found | None] | None = field(default=None, compare=False)
+    """the number that begins at a token"""
+    tokens: Callable[[str], Sequence[Token]] | None = field(default=None, compare=False)
+    """the tokens of a text"""
 
-    def at(self, words: Sequence[str], start: int) -> tuple[int, list[dict[str, Any]]] | None:
-        """The end and the actions of the longest phrase that starts at a word."""
-        best: tuple[int, list[dict[str, Any]]] | None = None
-        for phrase, actions in self.by_first.get(words[start], ()):
-            end = start + len(phrase)
-            if tuple(words[start:end]) == phrase and (best is None or end > best[0]):
-                best = end, actions
+    def at(self, tokens: Sequence[Token], start: int) -> FoundPhrase | None:
+        """The longest phrase that starts at a token."""
+        best: FoundPhrase | None = None
+        for phrase in self.by_first.get(tokens[start].text, ()):
+            found = self._fits(phrase, tokens, start)
+            if found is None or (best is not None and found[0] <= best.end):
+                continue
+            best = FoundPhrase(found[0], phrase.filled(found[1]), bool(phrase.parameters))
         return best
+
+    def with_numbers_in(self, text: str) -> list[FoundPhrase]:
+        """The phrases in a text that take numbers."""
+        known = (phrase for phrases in self.by_first.values() for phrase in phrases)
+        if self.tokens is None or not any(phrase.parameters for phrase in known):
+            return []
+        tokens = self.tokens(text)
+        found = (self.at(tokens, at) for at in range(len(tokens)))
+        return [each for each in found if each is not None and each.has_numbers]
+
+    def named_at(self, words: Sequence[str], start: int) -> int | None:
+        """The end of the longest phrase that starts at a word, by the names of its parameters."""
+        known = (phrase.words for phrase in self.by_first.get(words[start], ()))
+        sizes = [len(each) for each in known if tuple(words[start : start + len(each)]) == each]
+        return start + max(sizes) if sizes else None
+
+    def _fits(
+        self, phrase: TaughtWords, tokens: Sequence[Token], start: int
+    ) -> tuple[int, dict[str, int | float]] | None:
+        """Where a phrase ends that stands at a token, with the numbers said."""
+        names = {each.name.casefold(): each.name for each in phrase.parameters}
+        at, numbers = start, dict[str, int | float]()
+        for word in phrase.words:
+            if at >= len(tokens):
+                return None
+            if word in names and self.number is not None:
+                found = self.number(tokens, at)
+                if found is None:
+                    return None
+                numbers[names[word]], at = found.value, found.end
+            elif tokens[at].text == word:
+                at += 1
+            else:
+                return None
+        return at, numbers
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,26 +23,29 @@ HALF_CLOSED: Final = "roadtalk.half_closed"
 def asked_by(scope: Scope, receive: Receive) -> Iterator[None]:
     """Work in here is for a request whose body has been read; it ends when its client hangs up."""
 
-    async def disconnected() -> None:
-        while (await receive())["type"] != "http.disconnect":
-            pass
-
-    async def gone() -> None:
-        half_closed: asyncio.Event | None = (scope.get("extensions") or {}).get(HALF_CLOSED)
-        signs = {asyncio.ensure_future(disconnected())}
-        if half_closed is not None:
-            signs.add(asyncio.ensure_future(_set(half_closed)))
-        try:
-            await asyncio.wait(signs, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for sign in signs:
-                sign.cancel()
-
-    token = CURRENT_ASKER.set(Asker(client_of(scope) or UNNAMED, gone))
+    token = CURRENT_ASKER.set(Asker(client_of(scope) or UNNAMED, lambda: client_gone(scope, receive)))
     try:
         yield
     finally:
         CURRENT_ASKER.reset(token)
+
+
+async def client_gone(scope: Scope, receive: Receive) -> None:
+    """Return when the client of a request whose body has been read hangs up."""
+    half_closed: asyncio.Event | None = (scope.get("extensions") or {}).get(HALF_CLOSED)
+    signs = {asyncio.ensure_future(_disconnected(receive))}
+    if half_closed is not None:
+        signs.add(asyncio.ensure_future(_set(half_closed)))
+    try:
+        await asyncio.wait(signs, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for sign in signs:
+            sign.cancel()
+
+
+async def _disconnected(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass
 
 
 async def _set(event: asyncio.Event) -> None:

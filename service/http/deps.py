@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Annotated, cast
 
 from anyio import CapacityLimiter
-from fastapi import Depends
+from fastapi import Depends, Response
 from starlette.requests import HTTPConnection
 from starlette.types import Scope
 
@@ -23,6 +23,7 @@ from service.sessions.scheduler.clock import Clock
 from service.sessions.session import Session
 from service.settings import Settings
 from service.store import Store
+from service.work.long_answers import LongAnswers
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +46,7 @@ class Context:
     backups: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(1))
     """one backup at a time"""
     reels: Reels = field(default_factory=Reels)
+    long_answers: LongAnswers[Response] = field(default_factory=LongAnswers)
     event_streams: OpenStreams = field(default_factory=OpenStreams)
 
 

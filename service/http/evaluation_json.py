@@ -48,6 +48,7 @@ def evaluation_json(record: JobRecord, tickets: LinkTickets | None = None) -> di
         "seed": view.seed,
         "config": record.spec["config"],
         "same_road": view.same_road,
+        "scenario_name": view.scenario_name,
         "conditions": view.conditions,
         "done": view.done(record.done),
         "text": None if record.result is None else view.paragraphs(record.result),

@@ -9,11 +9,11 @@ from __future__ import annotations
 import inspect
 import time
 from bisect import bisect_left
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import Any, Literal, cast
 
-from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, disable_created_metrics
+from prometheus_client import CollectorRegistry, Counter, Gauge, disable_created_metrics
 from prometheus_client.core import CounterMetricFamily, HistogramMetricFamily, Metric
 
 from service.problems import KINDS
@@ -57,33 +57,43 @@ class CommandTimer:
         self._observe(time.perf_counter() - self._began)
 
 
-class LatenessHistogram:
-    """How late ticks are, for one thread.
+class LoopHistogram:
+    """A histogram that one thread observes: that of the event loop.
 
-    Every tick is observed. The library's histogram takes two locks for each, which live sessions pay for
-    (`python -m bench.live`); only the clock's thread observes here.
+    The library's takes two locks and a comparison for each bucket, which each tick (`python -m bench.live`)
+    and each command (`python -m bench.commands`) would pay for several times.
     """
 
-    __slots__ = ("_counts", "_sum_s")
+    __slots__ = ("_bounds", "_counts", "_sum_s")
 
-    def __init__(self) -> None:
-        self._counts = [0] * (len(LATENESS_S) + 1)
+    def __init__(self, bounds_s: Sequence[float]) -> None:
+        self._bounds = tuple(bounds_s)
+        self._counts = [0] * (len(self._bounds) + 1)
         self._sum_s = 0.0
 
-    def observe(self, lateness_s: float) -> None:
-        """Counts one tick."""
-        self._counts[bisect_left(LATENESS_S, lateness_s)] += 1
-        self._sum_s += lateness_s
+    def observe(self, seconds: float) -> None:
+        """Counts one duration."""
+        self._counts[bisect_left(self._bounds, seconds)] += 1
+        self._sum_s += seconds
 
-    def collect(self) -> HistogramMetricFamily:
-        """The counts, cumulative as Prometheus wants them."""
-        bounds = [*map(str, LATENESS_S), "+Inf"]
-        return HistogramMetricFamily(
-            "roadtalk_tick_lateness_seconds",
-            "From a tick's deadline to its start",
-            buckets=list(zip(bounds, accumulate(self._counts), strict=True)),
-            sum_value=self._sum_s,
-        )
+    def buckets(self) -> list[tuple[str, float]]:
+        """The counts by their bounds, cumulative as Prometheus wants them."""
+        return list(zip([*map(str, self._bounds), "+Inf"], accumulate(self._counts), strict=True))
+
+    @property
+    def sum_s(self) -> float:
+        """All durations together."""
+        return self._sum_s
+
+
+def histogram_family(
+    name: str, text: str, labels: Sequence[str], histograms: Iterable[tuple[tuple[str, ...], LoopHistogram]]
+) -> HistogramMetricFamily:
+    """Histograms of one name, by the values of their labels."""
+    family = HistogramMetricFamily(name, text, labels=list(labels))
+    for values, each in histograms:
+        family.add_metric(list(values), each.buckets(), each.sum_s)
+    return family
 
 
 class Metrics:
@@ -100,30 +110,11 @@ class Metrics:
         self._watchers = Gauge(
             "roadtalk_watchers", "Subscribers: open streams, sockets and events alike", registry=registry
         )
-        self.lateness = LatenessHistogram()
-        commands = Histogram(
-            "roadtalk_command_seconds",
-            "From a command to its answer",
-            ("channel",),
-            buckets=COMMAND_S,
-            registry=registry,
-        )
-        parts = Histogram(
-            "roadtalk_command_part_seconds",
-            "Of it: the sentence read, done on a copy, kept",
-            ("channel", "part"),
-            buckets=COMMAND_S,
-            registry=registry,
-        )
-        # Looked up once: finding a child by its labels takes longer than counting.
-        self._commands = {channel: commands.labels(channel).observe for channel in CHANNELS}
-        self._parts = {channel: _observe_parts(parts, channel) for channel in CHANNELS}
-        self.store = Histogram(
-            "roadtalk_store_seconds",
-            "One call to the store, durable when it is done",
-            buckets=STORE_S,
-            registry=registry,
-        )
+        self.lateness = LoopHistogram(LATENESS_S)
+        self._commands = {channel: LoopHistogram(COMMAND_S) for channel in CHANNELS}
+        self._parts = {(channel, part): LoopHistogram(COMMAND_S) for channel in CHANNELS for part in PARTS}
+        self._observe_part = {channel: _observe_parts(self._parts, channel) for channel in CHANNELS}
+        self.store = LoopHistogram(STORE_S)
         self._snapshots: Callable[[], Mapping[str, int]] = dict
         self._work: Callable[[], Mapping[str, int]] = dict
         self._work_running = Gauge(
@@ -153,7 +144,7 @@ class Metrics:
 
     def command(self, channel: Channel) -> CommandTimer:
         """Times a command that came by a channel, and its parts."""
-        return CommandTimer(self._commands[channel], self._parts[channel])
+        return CommandTimer(self._commands[channel].observe, self._observe_part[channel])
 
     def count_refusal(self, slug: str) -> None:
         """Counts a problem that is answered."""
@@ -168,7 +159,7 @@ class Metrics:
         self._backups[fate].inc()
 
     def collect(self) -> Iterator[Metric]:
-        """What is counted elsewhere: snapshots by their keeper, lateness of ticks; called by the registry."""
+        """What is counted elsewhere: snapshots by their keeper, and durations; called by the registry."""
         family = CounterMetricFamily(
             "roadtalk_snapshots", "Snapshots of sessions, by what became of them", labels=["fate"]
         )
@@ -179,18 +170,35 @@ class Metrics:
         for fate, count in self._work().items():
             work.add_metric([fate], count)
         yield work
-        yield self.lateness.collect()
+        yield histogram_family(
+            "roadtalk_tick_lateness_seconds", "From a tick's deadline to its start", (), [((), self.lateness)]
+        )
+        commands = [((channel,), each) for channel, each in self._commands.items()]
+        yield histogram_family(
+            "roadtalk_command_seconds", "From a command to its answer", ("channel",), commands
+        )
+        yield histogram_family(
+            "roadtalk_command_part_seconds",
+            "Of it: the sentence read, done on a copy, kept",
+            ("channel", "part"),
+            self._parts.items(),
+        )
+        yield histogram_family(
+            "roadtalk_store_seconds", "One call to the store, durable when it is done", (), [((), self.store)]
+        )
 
 
-def _observe_parts(parts: Histogram, channel: Channel) -> Callable[[Part, float], None]:
-    observe = {part: parts.labels(channel, part).observe for part in PARTS}
+def _observe_parts(
+    parts: Mapping[tuple[Channel, Part], LoopHistogram], channel: Channel
+) -> Callable[[Part, float], None]:
+    observe = {part: parts[channel, part].observe for part in PARTS}
     return lambda part, seconds: observe[part](seconds)
 
 
 class _TimedStore:
     """A store whose every call is timed; otherwise the store itself."""
 
-    def __init__(self, store: Store, histogram: Histogram) -> None:
+    def __init__(self, store: Store, histogram: LoopHistogram) -> None:
         self._store = store
         self._histogram = histogram
 
@@ -211,6 +219,6 @@ class _TimedStore:
         return call
 
 
-def time_store(store: Store, histogram: Histogram) -> Store:
+def time_store(store: Store, histogram: LoopHistogram) -> Store:
     """The same store, with the time of each call observed."""
     return cast(Store, _TimedStore(store, histogram))

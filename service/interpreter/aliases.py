@@ -7,18 +7,21 @@ itself, or begins to say.
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from service import actions as contract
 from service.actions import Action, Forget, Pause, Teach
+from service.actions.parameters import figure
 from service.grammar import Language as Grammar
 from service.grammar.follow_up import read_in_conversation
-from service.grammar.parse_types import Refused
+from service.grammar.parse_types import Refused, Understood
 from service.grammar.sentences import Unsayable
 from service.grammar.topic import Phrases, Topic
 from service.interpreter.known_beginnings import is_piece
-from service.interpreter.languages import Languages
+from service.interpreter.languages import Language, Languages
 from service.interpreter.owners import LOCAL, current_owner
 from service.problems import FieldProblem, NotAvailable, NotSaved, NotTeachable
 from service.refusals import refusals
@@ -26,7 +29,7 @@ from service.resources import DEFAULT_LANGUAGE
 from service.sessions.availability import refusal_of
 from service.sessions.facts import AliasChange
 from service.store import PhraseRecord, Store, StoredResponse, StoreError
-from sim.actions import Where
+from sim.actions import SetCount, Where
 from sim.types import PLACEABLE, Kind
 
 MAX_PHRASES = 200
@@ -53,21 +56,29 @@ class Aliases:
         self._languages = languages
         self._kept: dict[str, dict[tuple[str, str], PhraseRecord]] = {}
         self._ready: dict[tuple[str, str], Phrases] = {}
+        self._changing = asyncio.Lock()
+        """held while memory and store are brought in line"""
+        self.on_change: Callable[[], None] = lambda: None
+        """called after a phrase was taught or forgotten here"""
 
     async def open(self) -> None:
-        """Read the stored aliases. Raises `StoreError`."""
-        self._kept.clear()
-        self._ready.clear()
-        for each in await self._store.phrases():
-            self._own(each.owner)[each.language, each.key] = each
+        """Read the stored aliases, or read them again where another process has changed them.
+
+        Raises `StoreError`.
+        """
+        async with self._changing:
+            found = await self._store.phrases()
+            self._kept.clear()
+            self._ready.clear()
+            for each in found:
+                self._own(each.owner)[each.language, each.key] = each
 
     def phrases(self, code: str = DEFAULT_LANGUAGE) -> Phrases:
         """The aliases of a language, compiled for the parser."""
         owner = current_owner()
         found = (owner if self._kept.get(owner) else LOCAL, code)
         if found not in self._ready:
-            taught = {each.phrase: contract.load(each.meaning) for each in self.records(code)}
-            self._ready[found] = self._languages[code].phrases(taught)
+            self._ready[found] = self._languages[code].phrases(map(taught_of, self.records(code)))
         return self._ready[found]
 
     def records(self, code: str = DEFAULT_LANGUAGE) -> list[PhraseRecord]:
@@ -93,7 +104,7 @@ class Aliases:
         key = " ".join(self._languages[code].words_of(action.phrase))
         owner = current_owner()
         before = self._kept.get(owner, {}).get((code, key))
-        told = None if before is None else self.describe(contract.load(before.meaning), code)
+        told = None if before is None else self.sentence(taught_of(before), code)
         if isinstance(action, Forget):
             if before is None:
                 raise _not_teachable(refusals(code).said("never_taught", phrase=action.phrase))
@@ -103,9 +114,9 @@ class Aliases:
             return lesson
         self._check(action, code, key, new=before is None)
         record = PhraseRecord(
-            owner=owner, language=code, key=key, phrase=action.phrase, meaning=contract.dump(action.meaning)
+            owner=owner, language=code, key=key, phrase=action.phrase, meaning=_kept(action)
         )
-        lesson = AliasChange(action.phrase, self.describe(action.meaning, code), taught=True, before=told)
+        lesson = AliasChange(action.phrase, self.sentence(action, code), taught=True, before=told)
         if not dry_run:
             await self._teach(record, None if answer is None else answer(lesson))
         return lesson
@@ -117,6 +128,13 @@ class Aliases:
         except Unsayable:
             return ", ".join(refusals(code).action(action.do) for action in actions)
 
+    def sentence(self, taught: Teach, code: str) -> str:
+        """What a phrase means as a sentence, with its parameters by their names."""
+        try:
+            return self._languages[code].sentence_of_meaning(taught)
+        except Unsayable:
+            return self.describe(taught.meaning, code)
+
     def _check(self, action: Teach, code: str, key: str, *, new: bool) -> None:
         words, said = key.split(), refusals(code).said
         if not any(word.isalpha() for word in words):
@@ -127,42 +145,78 @@ class Aliases:
             raise _not_teachable(said("too_many_phrases", most=MAX_PHRASES))
         if new and sum(map(len, self._kept.values())) >= MAX_ALL_PHRASES:
             raise _not_teachable(said("too_many_phrases", most=MAX_ALL_PHRASES))
-        others = {each.phrase: contract.load(each.meaning) for each in self.records(code) if each.key != key}
+        others = [taught_of(each) for each in self.records(code) if each.key != key]
         amid = replace(RICH_TOPIC, phrases=self._languages[code].phrases(others))
         language = self._languages[code]
-        alone = language.parse(action.phrase, amid)
-        if isinstance(language, Grammar):
-            alone = read_in_conversation(language, action.phrase, amid, alone)
-        means = not isinstance(alone, Refused) or alone.reason != "not_understood"
-        if means or (isinstance(language, Grammar) and is_piece(language, action.phrase)):
+        if self._means_something(language, action, amid) or (
+            isinstance(language, Grammar) and is_piece(language, action.phrase)
+        ):
             raise _not_teachable(said("means_something", phrase=action.phrase))
         for meant in action.meaning:
             if (sentence := refusal_of(meant, code)) is not None:
                 raise NotAvailable(sentence, errors=[FieldProblem("meaning", sentence)])
 
+    @staticmethod
+    def _means_something(language: Language, lesson: Teach, amid: Topic) -> bool:
+        """Whether a phrase has a meaning of its own; a bare count of things ("wall 5") may be taught over."""
+        for said in dict.fromkeys((lesson.phrase, example_of(lesson))):
+            alone = language.parse(said, amid)
+            if isinstance(language, Grammar):
+                alone = read_in_conversation(language, said, amid, alone)
+            counts = isinstance(alone, Understood) and all(isinstance(a, SetCount) for a in alone.actions)
+            if counts and said != lesson.phrase:
+                continue
+            if not isinstance(alone, Refused) or alone.reason != "not_understood":
+                return True
+        return False
+
     async def _teach(self, record: PhraseRecord, answer: StoredResponse | None) -> None:
-        try:
-            await self._store.save_phrase(record, answer)
-        except StoreError as error:
-            raise NotSaved from error
-        self._own(record.owner)[record.language, record.key] = record
-        self._forget_compiled(record)
+        async with self._changing:
+            try:
+                await self._store.save_phrase(record, answer)
+            except StoreError as error:
+                raise NotSaved from error
+            self._own(record.owner)[record.language, record.key] = record
+            self._forget_compiled(record)
+        self.on_change()
 
     async def _forget(self, record: PhraseRecord, answer: StoredResponse | None) -> None:
-        try:
-            await self._store.delete_phrase(record.owner, record.language, record.key, answer)
-        except StoreError as error:
-            raise NotSaved from error
-        self._own(record.owner).pop((record.language, record.key), None)
-        if not self._kept[record.owner]:
-            del self._kept[record.owner]
-        self._forget_compiled(record)
+        async with self._changing:
+            try:
+                await self._store.delete_phrase(record.owner, record.language, record.key, answer)
+            except StoreError as error:
+                raise NotSaved from error
+            self._own(record.owner).pop((record.language, record.key), None)
+            if not self._kept[record.owner]:
+                del self._kept[record.owner]
+            self._forget_compiled(record)
+        self.on_change()
 
     def _forget_compiled(self, record: PhraseRecord) -> None:
         """The phrases of this machine are in what all others have compiled."""
         if record.owner == LOCAL:
             self._ready.clear()
         self._ready.pop((record.owner, record.language), None)
+
+
+def taught_of(record: PhraseRecord) -> Teach:
+    """What a record holds: a meaning, or a whole lesson where the phrase takes numbers."""
+    found = contract.load(record.meaning)
+    if len(found) == 1 and isinstance(found[0], Teach):
+        return found[0]
+    return Teach(phrase=record.phrase, meaning=found)
+
+
+def _kept(lesson: Teach) -> list[dict[str, Any]]:
+    """The meaning to be stored; with it the parameters, if there are any."""
+    return contract.dump(lesson.meaning if lesson.parameters is None else (lesson,))
+
+
+def example_of(lesson: Teach) -> str:
+    """A phrase with a number in the place of each parameter, as one would say it."""
+    meaning = contract.dump(lesson.meaning)
+    numbers = {each.name.casefold(): figure(meaning, each.figures[0]) for each in lesson.parameters or ()}
+    return " ".join(str(numbers.get(word.casefold(), word)) for word in lesson.phrase.split())
 
 
 def _not_teachable(sentence: str) -> NotTeachable:

@@ -1,4 +1,7 @@
-"""The interpreter: grammar first, then (if configured) a language model, then a refusal.
+"""The interpreter: grammar first, then a match with known questions, then (if configured) a language model,
+then a refusal.
+
+A match is a question only, and its answer begins with the sentence that it was read as.
 
 A model is asked only when the grammar refuses. Its result is an interpretation: a question is answered and
 marked as read by a model, a change is offered as a sentence to confirm, and nothing is done before that
@@ -25,6 +28,8 @@ from service.interpreter.aliases import Aliases
 from service.interpreter.languages import Language, Languages
 from service.interpreter.preview import Preview, preview
 from service.interpreter.question import Asked, answered, asked_by
+from service.interpreter.question_reader import QuestionReader, situations
+from service.interpreter.sentence_cache import SentenceCache
 from service.llm.protocol import LanguageModel
 from service.problems import FieldProblem, Invalid, NotAQuestion, NotUnderstood
 from service.refusals import refusals
@@ -50,7 +55,7 @@ longer ones, which may take 30 ms (`service.grammar.work_budget` limits them).""
 PARSERS = 2
 """Threads that parse at once: each delays the event loop a little."""
 
-Source = Literal["grammar", "llm", "typed"]
+Source = Literal["grammar", "matched", "llm", "typed"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +68,19 @@ class ParsedCommand:
     source: Source = "grammar"
     language: str = DEFAULT_LANGUAGE
     supposes: str | None = None
+    preface: str = ""
+    """what the reply begins with: as what the text was read, where that is not plain"""
 
     @property
     def utterance(self) -> Utterance:
         """The utterance to perform."""
-        return Utterance(actions=self.actions, text=self.text, supposes=self.supposes, language=self.language)
+        return Utterance(
+            actions=self.actions,
+            text=self.text,
+            supposes=self.supposes,
+            preface=self.preface,
+            language=self.language,
+        )
 
 
 class Interpreter:
@@ -93,7 +106,9 @@ class Interpreter:
         self._confirm = confirm
         self._rephrase = rephrase
         self._parsing = CapacityLimiter(PARSERS)
+        self._questions = QuestionReader(languages, self._parsing, asks=model is None)
         self._turn = TurnBudget()
+        self._sentences = SentenceCache()
 
     def topic(self, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Topic:
         """What a sentence may refer to: the session's conversation, and aliases."""
@@ -115,16 +130,27 @@ class Interpreter:
         if not text.strip() or len(text) > self._most_chars:
             return None
         code = code or session.language
-        return preview(await self._read(text, session, code), session, code)
+        parse = await self._read(text, session, code)
+        if isinstance(parse, Refused) and parse.reason == "not_understood":
+            try:
+                question = await self._question(text, session, code)
+            except Asked as problem:
+                return Preview("ambiguous", detail=problem.detail)
+            if question is not None:
+                return Preview("asks", question.actions)
+        return preview(parse, session, code)
 
     async def _read(self, text: str, session: Session | None, code: str) -> Parse:
         language, topic = self.languages[code], self.topic(session, code)
         if len(text) <= MAX_INLINE_CHARS:
             async with self._turn.piece():
-                parsed = _parse(language, text, topic)
+                parsed = self._parse(language, text, topic)
         else:
-            parsed = await to_thread.run_sync(_parse, language, text, topic, limiter=self._parsing)
+            parsed = await to_thread.run_sync(self._parse, language, text, topic, limiter=self._parsing)
         return answered(language, code, text, parsed, None if session is None else session.pending)
+
+    def _parse(self, language: Language, text: str, topic: Topic) -> Parse:
+        return self._sentences.parse(language, text, topic, lambda seen: _parse(language, text, seen))
 
     async def interpret(
         self,
@@ -166,10 +192,34 @@ class Interpreter:
             case AmbiguousParse():
                 raise asked_by(parse, code, None if session is None else session.pending)
             case Refused():
+                question = (
+                    await self._question(text, session, code) if parse.reason == "not_understood" else None
+                )
+                if question is not None:
+                    return question
                 refusal = await self._refusal(parse, session, field, code)
+                elsewhere = session is not None and parse.reason == "not_understood"
+                if elsewhere and await self._questions.is_of_something_else(text, code):
+                    refusal.detail = f"{refusal.detail} {refusals(code).said('askable')}"
                 if self._model is None or parse.reason != "not_understood":
                     raise refusal
                 return await self._ask_model(self._model, text, refusal, code)
+
+    async def _question(self, text: str, session: Session | None, code: str) -> ParsedCommand | None:
+        """What a refused text asks of a session if it is a question nevertheless, or None. Raises `Asked`."""
+        if session is None:
+            return None
+        question = await self._questions.read(text, self.topic(session, code), code, situations(session.run))
+        if question is None:
+            return None
+        return ParsedCommand(
+            text,
+            question.parse.actions,
+            source=question.source,
+            language=question.language,
+            supposes=question.parse.supposes,
+            preface=question.preface,
+        )
 
     async def interpret_question(
         self, text: str, session: Session | None, code: str | None = None

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Protocol
 
-from service.actions import Action
+from service.actions import Action, Teach
 from service.grammar import Language as Grammar
 from service.grammar.parse_types import Parse
 from service.grammar.topic import ALONE, Phrases, Topic
 from service.interpreter.guide import Guide
 from service.problems import FieldProblem, Invalid
+from service.question_matcher.matcher import QuestionMatcher
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE, prompts_folder
 from service.sessions.availability import refusal_of
@@ -25,7 +26,10 @@ class Language(Protocol):
     def sentence(self, actions: Sequence[Action]) -> str:
         """A sentence that means exactly these actions. Raises `Unsayable`."""
 
-    def phrases(self, taught: Mapping[str, Sequence[Action]]) -> Phrases:
+    def sentence_of_meaning(self, taught: Teach) -> str:
+        """A sentence for what a phrase means, with its parameters by their names. Raises `Unsayable`."""
+
+    def phrases(self, taught: Iterable[Teach]) -> Phrases:
         """Taught phrases, compiled for the parser."""
 
     def words_of(self, text: str) -> tuple[str, ...]:
@@ -38,6 +42,7 @@ class Languages:
     def __init__(self, by_code: Mapping[str, Language]) -> None:
         self._by_code = dict(by_code)
         self._guides: dict[str, Guide] = {}
+        self._matchers: dict[str, QuestionMatcher] = {}
 
     def guide(self, code: str) -> Guide | None:
         """The guide to a language; None if it is not made of data. Raises `Invalid` if unknown."""
@@ -45,6 +50,13 @@ class Languages:
         if code not in self._guides and isinstance(language, Grammar):
             self._guides[code] = Guide(language, code)
         return self._guides.get(code)
+
+    def matcher(self, code: str) -> QuestionMatcher | None:
+        """What matches questions in a language, if anything was learnt. Raises `Invalid` if it is unknown."""
+        language, folder = self[code], prompts_folder() / "questions" / code
+        if code not in self._matchers and isinstance(language, Grammar) and folder.is_dir():
+            self._matchers[code] = QuestionMatcher(language, folder)
+        return self._matchers.get(code)
 
     @classmethod
     def load(cls) -> Languages:
@@ -59,7 +71,9 @@ class Languages:
 
     def prepare(self) -> None:
         """Make what the first refusals and follow-ups need, so that nobody waits. For any thread."""
-        for language in self._by_code.values():
+        for code, language in self._by_code.items():
+            if (matcher := self.matcher(code)) is not None:
+                matcher.match("why?")
             if isinstance(language, Grammar):
                 language.suggestions.nearest("", ())
                 for table in ("joiners", "typos"):  # made when they are first read

@@ -29,6 +29,9 @@ class JobKind(Protocol):
     def total(self, spec: Spec) -> int:
         """The weights of all pieces together."""
 
+    def size(self, spec: Spec) -> int:
+        """Bytes that the finished pieces take at most, about."""
+
     def pieces(self, spec: Spec, parts: Parts) -> Sequence[Piece]:
         """The pieces that can be done next, given what is done; none when the job is finished."""
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import asyncio
 import os
-import secrets
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -25,8 +24,9 @@ from service.jobs.kind import JobKind, Piece, Spec
 from service.problems import NotSaved, QuotaExceeded, UnknownJob
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
+from service.sharding import SINGLE, Shard
 from service.store import JobRecord, Store, StoreError
-from sim.evaluate.executor import CancelledError, Executor, LocalProcesses
+from sim.evaluate.executor import CancelledError, Executor, LocalProcesses, run_all
 
 _LOG = structlog.get_logger(__name__)
 
@@ -35,6 +35,9 @@ MAX_WAITING: Final = 20
 NEWEST: Final = 100
 """Jobs among which the latest one of a session is looked for."""
 _ID_BYTES: Final = 12
+_SPARE_BYTES: Final = 8_000_000
+"""Room on the disk beside what pieces take: for the result, and for what else is stored meanwhile."""
+_MB: Final = 1_000_000
 
 
 class JobState(StrEnum):
@@ -65,11 +68,16 @@ class JobRunner:
         store: Store,
         kinds: Sequence[JobKind],
         executor: Callable[[], Executor] | None = None,
+        shard: Shard = SINGLE,
     ) -> None:
-        """`executor`: makes what runs the pieces; processes of this machine by default."""
+        """`executor`: makes what runs the pieces; processes of this machine by default.
+
+        `shard`: only its jobs are run here.
+        """
+        self._shard = shard
         self._store = store
         self._kinds = {kind.name: kind for kind in kinds}
-        self._make_executor = executor or (lambda: LocalProcesses(processes_for(os.cpu_count())))
+        self._make_executor = executor or (lambda: LocalProcesses(shard.share(processes_for(os.cpu_count()))))
         self._waiting: list[str] = []
         self._live: dict[str, JobRecord] = {}
         """those that wait or run"""
@@ -85,7 +93,8 @@ class JobRunner:
     async def open(self) -> None:
         """Take up the jobs that a stop or a crash has interrupted."""
         for state in (JobState.RUNNING, JobState.QUEUED):
-            for record in reversed(await self._store.jobs(MAX_WAITING, state=state)):
+            found = await self._store.jobs(MAX_WAITING * self._shard.count, state=state)
+            for record in reversed([each for each in found if self._shard.owns(each.id)]):
                 self._queue(replace(record, state=JobState.QUEUED))
         self._wake()
 
@@ -98,7 +107,7 @@ class JobRunner:
 
     def new_id(self) -> str:
         """An unguessable id for a job."""
-        return secrets.token_urlsafe(_ID_BYTES)
+        return self._shard.new_id(_ID_BYTES)
 
     async def start(
         self, kind: str, spec: Spec, job_id: str | None = None, language: str = DEFAULT_LANGUAGE
@@ -106,6 +115,7 @@ class JobRunner:
         """Store a job and run it when its turn comes. Raises `QuotaExceeded` or `NotSaved`."""
         if len(self._live) >= MAX_WAITING:
             raise QuotaExceeded(refusals(language).session("too_many_jobs", most=MAX_WAITING))
+        await self._check_room(self._kinds[kind].size(spec), language)
         record = JobRecord(
             id=job_id or self.new_id(),
             kind=kind,
@@ -159,6 +169,8 @@ class JobRunner:
         record = await self.get(job_id)
         if JobState(record.state).ended:
             return False
+        if job_id not in self._live:
+            raise UnknownJob  # it is run by another shard: only one of another count of shards could ask
         await self._end(replace(self._live[job_id], state=JobState.CANCELLED))
         if job_id == self._running:
             self._cancel.set()
@@ -181,6 +193,14 @@ class JobRunner:
         return await self.get(job_id)
 
     # Within
+
+    async def _check_room(self, size: int, language: str) -> None:
+        """Raises `NotSaved` where the disk has no room for so many bytes of finished pieces."""
+        room = await self._store.room()
+        needed = 2 * size + _SPARE_BYTES  # SQLite writes them to its log first
+        if room is not None and room < needed:
+            parts = {"needed": -(-needed // _MB), "free": room // _MB}
+            raise NotSaved(refusals(language).session("no_room_for_job", **parts))
 
     def _queue(self, record: JobRecord) -> None:
         self._live[record.id] = record
@@ -276,15 +296,17 @@ def _drive(
 ) -> dict[str, Any] | None:
     """All pieces that are left, and the result; None where it was cancelled. For a thread."""
     executor = make_executor()
+
+    def left() -> list[Piece]:
+        return [piece for piece in kind.pieces(spec, parts) if piece.key not in parts]
+
+    def done(piece: Piece, body: bytes) -> None:
+        keep(piece, body)
+        parts[piece.key] = body
+
     try:
-        while pieces := [piece for piece in kind.pieces(spec, parts) if piece.key not in parts]:
-            for piece, body in executor.run(kind.work(spec), pieces, cancel):
-                keep(piece, body)
-                parts[piece.key] = body
-            if cancel.is_set():
-                return None
-            if any(piece.key not in parts for piece in pieces):
-                raise RuntimeError("the executor has left out pieces of work")
+        if not run_all(executor, kind.work(spec), left, done, cancel):
+            return None
         results = [result for _, result in executor.run(_finish, [(kind.finish(spec), dict(parts))], cancel)]
         return None if cancel.is_set() or not results else results[0]
     except CancelledError:

@@ -14,6 +14,7 @@ from service.contract.encode.ahead import (
 )
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
+from service.narration.assurance import assurance_told
 from service.narration.charges import in_seconds
 from service.narration.crash_ahead import CrashesAhead
 from service.narration.futures_told import counted_told, end_told, share_told, yes_and_no
@@ -65,7 +66,9 @@ class Outlooks:
     def _safe(self, asked: Asked) -> tuple[str, Json]:
         found = safe_move(asked.timeline, asked.ask.move or Move.STAY)
         text = self._safe_text(found, yes_and_no(self._sayings, asked))
-        return within([Part(0, text), Part(1, self._given_away(found))]), safe_move_json(found)
+        sure = assurance_told(self._sayings, found.assurance, found.state, safe=found.safe)
+        parts = [Part(0, text), Part(1, self._given_away(found)), Part(2, sure)]
+        return within(parts), safe_move_json(found)
 
     def _safe_text(self, found: SafeMove, first: dict[str, str]) -> str:
         """Yes or no, `first` as words, and why."""
@@ -172,7 +175,7 @@ class Outlooks:
             without = self._say("stuck", "without", who=who) if shut.ids else ""
             parts = [Part(0, self._say("way", "late" if shut.late else "shut")), Part(1, without)]
         elif found.outlook is None and found.foresight.arrives == 0.0:
-            parts = [Part(0, self._say("way", "unknown"))]
+            parts = [Part(0, self._say("way", "slips" if found.state.config.slips else "unknown"))]
         else:
             end = end_told(self._sayings, found.foresight)
             taken = "taken" if found.foresight.arrives > 0.0 else "missed"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Final
 
 from service.actions import Ask
 from service.narration.advice import Advices
@@ -11,28 +12,50 @@ from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.blame import Blames
 from service.narration.choices import Choices
 from service.narration.confidence import Confidences
+from service.narration.course import Courses
 from service.narration.details import Details
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
 from service.narration.history import History
+from service.narration.human_drivers import HumanDrivers
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
 from service.narration.next import Next
 from service.narration.others import Others
+from service.narration.planner_difference import PlannerDifferences
 from service.narration.planners import Planners
 from service.narration.quiz.answer import Quizzes
+from service.narration.ranking import Rankings
 from service.narration.rules import RulesTold
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
+from service.narration.sensing_compared import SensingCompared
 from service.narration.settings import Settings
+from service.narration.sight import Sights
+from service.narration.soon import Soon
 from service.narration.status import Help, Status
+from service.narration.stretches import Stretches
 from service.narration.talk import OpenQuestion, RecentChanges
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
+from service.narration.world import Worlds
+from service.narration.world_rules import WorldRules
 from service.sessions.facts import Advised, Answerable, Asked
 from sim.explain import QuestionError
 from sim.explain.query import latest_detour
+
+RULES_OF_THE_WORLD: Final = (
+    "moves",
+    "movers",
+    "weights",
+    "learning",
+    "nature",
+    "sources",
+    "by_hand",
+    "giving_up",
+)
+"""What is asked of this world and holds in every drive."""
 
 
 class Answers:
@@ -43,8 +66,19 @@ class Answers:
         self._advices = Advices(sayings)
         self._sayings = sayings
         self._details = Details(sayings, self.answer)
-        self._moments = Moments(sayings)
-        self._choices = Choices(sayings)
+        by_what: dict[Answerer, tuple[str, ...]] = {
+            Choices(sayings): ("choices", "losses", "free", "matters"),
+            Rankings(sayings): ("runner_up", "scores"),
+            Stretches(sayings): ("waited", "differed", "before_crash"),
+            Soon(sayings): ("risk", "coming"),
+            Moments(sayings): ("riskiest", "similar"),
+            Courses(sayings): ("lane_changes", "passed", "verdict"),
+            SensingCompared(sayings): ("care", "weathers", "sensors"),
+            WorldRules(sayings): RULES_OF_THE_WORLD,
+            PlannerDifferences(sayings): ("difference",),
+            HumanDrivers(sayings): ("human",),
+        }
+        self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
         whys, settings = Whys(sayings), Settings(sayings)
         self._by_question: dict[str, Answerer] = {
             "why": whys,
@@ -72,6 +106,8 @@ class Answers:
             "planners": Planners(sayings),
             "quiz": Quizzes(sayings),
             "rules": RulesTold(sayings),
+            "sight": Sights(sayings),
+            "world": Worlds(sayings),
         }
 
     def answer(self, asked: Answerable) -> Json:
@@ -92,11 +128,8 @@ class Answers:
             return plain(self._sayings, replace(ask, ticks=None), asked.timeline.state, text)
         if asked.supposes == "told" and (sure := self._details.sure(asked)) is not None:
             return sure
-        if ask.about == "history" and ask.what in ("riskiest", "similar"):
-            return self._moments.answer(asked)
-        if ask.what in ("choices", "losses", "free", "matters"):
-            return self._choices.answer(asked)
-        return self._by_question[ask.about].answer(asked)
+        known = self._by_what.get(str(ask.what), self._by_question[ask.about])
+        return known.answer(asked)
 
 
 def _at_the_detour(asked: Asked) -> Asked:
@@ -109,7 +142,7 @@ def _at_the_detour(asked: Asked) -> Asked:
 
 def _meets_one_tick(ask: Ask) -> bool:
     """Whether so many ticks back is the tick of one decision, rather than where a stretch begins."""
-    return ask.about != "history" or ask.what == "choices"
+    return ask.about not in ("history", "outlook") or ask.what in ("choices", "runner_up", "scores")
 
 
 def _at_its_tick(asked: Asked) -> Asked:

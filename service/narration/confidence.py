@@ -36,6 +36,8 @@ class Confidences:
     def text(self, found: Confidence, run: SimState) -> str:
         """How sure, in two sentences or three. `run`: the moment it is about."""
         told = self._sure(found, run)
+        if run.config.slips and found.method is not Method.ONE_RUN:
+            told = f"{told} {self._say('slips')}"
         if found.by_hand:
             return self._say("by_hand", told=told)
         clarity = None if found.clarity is None else self._clarity(found.clarity, run)

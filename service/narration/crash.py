@@ -61,6 +61,7 @@ class Crashes:
                 Part(0, self._happened(crash, decision, naming)),
                 *(Part(1, each) for each in self._not_as_seen(crash, naming)),
                 Part(1, self._by_whom(decision)),
+                Part(1, self._slipped(crash)),
                 Part(2 if crash.free else 4, self._otherwise(crash, decision, naming)),
                 Part(3, flips),
                 Part(2, self._saving(crash)),
@@ -73,7 +74,7 @@ class Crashes:
     def _happened(self, crash: Crash, decision: Decision, naming: Naming) -> str:
         cause = crash.cause
         ids = [name for name in cause.ids if name != decision.av]
-        stood = decision.move is Move.STAY
+        stood = crash.made is Move.STAY
         if cause.how == "swap":
             key = "swap"
         elif cause.how == "cross":
@@ -82,7 +83,7 @@ class Crashes:
             key = "into"
         else:
             key = "came" if stood else "met"
-        did = self._sayings.move(decision.move, "did")
+        did = self._sayings.move(crash.made, "did")
         return self._say(key, tick=crash.end, did=did, who=naming.things(ids))
 
     def _not_as_seen(self, crash: Crash, naming: Naming) -> list[str]:
@@ -112,6 +113,11 @@ class Crashes:
             metres=self._sayings.number(config.cell_m),
             percent=self._sayings.number(round(100 * chance)),
         )
+
+    def _slipped(self, crash: Crash) -> str:
+        if not crash.slipped:
+            return ""
+        return self._say("slipped", tried=self._sayings.move(crash.explanation.decision.move, "name"))
 
     def _by_whom(self, decision: Decision) -> str:
         if decision.fault is not None:

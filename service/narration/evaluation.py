@@ -10,6 +10,7 @@ from typing import Any, Final
 from service.narration.conditions import Conditions
 from service.narration.inflection import capital
 from service.narration.sayings import Sayings
+from service.narration.success_map import MapWords
 from service.sessions.facts import JobTold
 from service.store import JobRecord
 from sim.config import Config
@@ -44,11 +45,13 @@ class EvaluationWords:
         """`sayings`: the language's."""
         self._sayings = sayings
         self._conditions = Conditions(sayings)
+        self._map = MapWords(sayings, self.percent)
 
     def started(self, spec: Evaluation, job: str | None) -> str:
         """The reply to what asks for an evaluation; `job`: its id once it is started."""
         parts = {
             "runs": self._whole(spec.episodes),
+            "of": self._of(spec),
             "planners": self._planners(spec),
             "conditions": self._under(spec),
             "where": self._where(spec),
@@ -56,11 +59,13 @@ class EvaluationWords:
         if job is None:
             return self._say("asked", **parts)
         form = "one" if len(spec.planners) == 1 else "many"
-        return self._say("started", form, link=REPORT.format(id=job), **parts)
+        return self._say("started", form, **parts)
 
     def ended(self, spec: Evaluation, summary: Json, job_id: str) -> str:
         """A line for the log of the session that asked for it."""
         told = " ".join(self._arrived(planner, summary) for planner in spec.planners)
+        if spec.axes is not None:
+            told = " ".join(self._map.paragraphs(summary["map"]))
         return self._say("done", told=told, link=REPORT.format(id=job_id))
 
     def standing(self, fact: JobTold) -> str:
@@ -90,8 +95,9 @@ class EvaluationWords:
     def title(self, spec: Evaluation) -> str:
         """The heading of a report."""
         return self._say(
-            "title" if spec.world is None else "title_this",
+            "title" if spec.world is None or spec.scenario_name is not None else "title_this",
             runs=self._whole(spec.episodes),
+            of=self._of(spec),
             planners=self._planners(spec),
             conditions=self._under(spec),
         )
@@ -104,6 +110,10 @@ class EvaluationWords:
         """All that the roads are drawn from."""
         return self._conditions.whole(config)
 
+    def axis(self, name: str) -> str:
+        """The things that an axis of a success map counts."""
+        return self._map.axis(name)
+
     def shows(self, example: Json) -> str:
         """The figures that an episode stands behind."""
         known = self._sayings.words("evaluation", "report", "behind")
@@ -112,7 +122,7 @@ class EvaluationWords:
 
     def paragraphs(self, spec: Evaluation, summary: Json) -> list[str]:
         """What came of it: a paragraph for each planner, each comparison, and the roads."""
-        told = self._by_case(spec, summary)
+        told = self._by_case(spec, summary) if spec.axes is None else [*self._map.paragraphs(summary["map"])]
         together = [self._planner(planner, summary) for planner in spec.planners]
         if spec.cases:
             together[0] = self._say("together", told=together[0])
@@ -161,7 +171,9 @@ class EvaluationWords:
         varied = dict.fromkeys(name for case in spec.cases for name in case.said)
         usual = self._conditions.short(spec.config, varied)
         told = [usual] if usual else []
-        if spec.cases:
+        if spec.axes is not None:
+            told.append(self._map.over(spec.axes))
+        elif spec.cases:
             told.append(self._sayings.joined([self.condition(case.said) for case in spec.cases]))
         if spec.rules:
             form = "one" if len(spec.rules) == 1 else "many"
@@ -199,7 +211,12 @@ class EvaluationWords:
         )
 
     def _where(self, spec: Evaluation) -> str:
-        return self._say("where", "drawn" if spec.world is None else "this", seed=spec.seed)
+        form = "this" if spec.scenario_name is None else "its"
+        return self._say("where", "drawn" if spec.world is None else form, seed=spec.seed)
+
+    def _of(self, spec: Evaluation) -> str:
+        """The name of the scenario behind "100 runs"; empty where there is none."""
+        return "" if spec.scenario_name is None else self._say("of", scenario=spec.scenario_name)
 
     def _arrived(self, planner: str, summary: Json) -> str:
         arrived = summary["planners"][planner]["arrived"]
@@ -347,7 +364,7 @@ class EvaluationWords:
             if not roads["unsolvable"] and not roads["unknown"]:
                 told.append(self._say("roads", "all"))
             if roads["unsolvable"]:
-                runs = self._whole(spec.episodes)
+                runs = self._whole(spec.total)
                 told.append(
                     self._say("roads", "some", unsolvable=self._whole(roads["unsolvable"]), runs=runs)
                 )

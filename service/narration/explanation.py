@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from functools import partial
+
 from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.charges import in_seconds, likely, seconds_worth
 from service.narration.inflection import is_told, lower_first
@@ -12,7 +15,7 @@ from service.narration.sayings import Sayings
 from sim.explain import Alternatives, Explanation, Future
 from sim.explain.misperception import misperception
 from sim.plan import Measure, Option
-from sim.types import Move, Outcome
+from sim.types import Move, Outcome, kind_of
 
 MOST_REASONS = 2
 """Moves of which it is told what was in their way, where telling it of all would be too long."""
@@ -81,13 +84,15 @@ class _Telling:
             return [Part(0, self._say("fact_fault", at=self._at, planner=planner, fault=fault))]
         if decision.asked is not None and not decision.held_back:
             return [Part(0, self._say("fact_asked", at=self._at, did=self._did(decision.move)))]
-        proofs = self._proofs.of_why()
         if decision.measure is not Measure.RANK and decision.asked is None:
-            return [Part(0, self._weighed()), *proofs]
-        if self._planner_reasons is not None and (reasons := self._planner_reasons.reasons("then")):
+            told = self._weighed()
+            return [Part(0, told), *self._proofs.of_why(told)]
+        if self._planner_reasons is not None and self._planner_reasons.reasons("then"):
             fact = self._fact([decision.option(Move.FORWARD)] if decision.move is not Move.FORWARD else [])
-            told = self._say("because", fact=fact, reasons=self._short(reasons))
-            return [Part(0, told), Part(2, self._planner_reasons.choice_of_side()), *proofs]
+            met = self._planner_reasons.met()
+            told = self._because(fact, met, partial(self._planner_reasons.reasons, "then"))
+            side = Part(3, self._planner_reasons.choice_of_side())
+            return [Part(0, told), side, *self._proofs.of_why(told)]
         if decision.held_back and decision.asked is not None:
             asked = self._sayings.move(decision.asked, "do")
             fact = self._say("fact_held_back", at=self._at, asked=asked)
@@ -98,9 +103,9 @@ class _Telling:
         if not hindered:
             told = self._say("clear", fact=fact, reason=self._reason(decision.chosen))
             shown = self._explanation.causes or self._explanation.also
-            return [Part(0, told), *(proofs if shown else self._proofs.blocked())]
-        reasons = self._short(self._sayings.all_met(hindered, "then", self._naming), hindered)
-        return [Part(0, self._say("because", fact=fact, reasons=reasons)), *proofs]
+            return [Part(0, told), *(self._proofs.of_why(told) if shown else self._proofs.blocked())]
+        told = self._because(fact, hindered, partial(self._met_by_first, hindered))
+        return [Part(0, told), *self._proofs.of_why(told)]
 
     def why_not(self) -> list[Part]:
         """Why the foil was not made."""
@@ -114,19 +119,50 @@ class _Telling:
         if option.cell is None:
             reason = self._reason(option)
             return [Part(0, self._say("not_off_road", at=self._at, do=do, reason=reason))]
-        return [Part(0, self._not_made(option, do)), Part(2, self.would()), *self._proofs.of_change()]
-
-    def _short(self, reasons: str, hindered: list[Option] | None = None) -> str:
-        """The reasons; where they are very many words, those of the first moves."""
-        if self._detailed or len(reasons.split()) <= MOST_WORDS // 2:
-            return reasons
-        met = hindered or [
-            option for option in self._decision.preferred if option.reason.blocks and option.cell
+        return [
+            Part(0, self._not_made(option, do)),
+            Part(2, self.would(named=True)),
+            *self._proofs.of_change(),
         ]
-        if len(met) <= MOST_REASONS:
-            return reasons
-        first = self._sayings.all_met(met[:MOST_REASONS], "then", self._naming)
-        return self._say("and_others", reasons=first)
+
+    def _met_by_first(self, hindered: list[Option], most: int | None = None) -> str:
+        """What was in the way of the first so many moves."""
+        return self._sayings.all_met(hindered[:most], "then", self._naming)
+
+    def _because(self, fact: str, met: list[Option], reasons: Callable[[int | None], str]) -> str:
+        """The fact and its reasons; where they are very many words, those of the first moves.
+
+        `met`: the moves before the one made that something was in the way of; `reasons`: those of the first
+        so many of these moves, or all there are.
+        """
+        told = self._say("because", fact=fact, reasons=reasons(None))
+        if self._detailed:
+            return told
+        room = MOST_WORDS - self._proofs.least()
+        short = len(met) <= MOST_REASONS or len(reasons(None).split()) <= MOST_WORDS // 2
+        if short and len(told.split()) <= room:
+            return told
+        for some in self._fewer(met, reasons):
+            told = self._say("because", fact=fact, reasons=some)
+            if len(told.split()) <= room:
+                break
+        return told
+
+    def _fewer(self, met: list[Option], reasons: Callable[[int | None], str]) -> Iterator[str]:
+        """The reasons in ever fewer words, as `_because` takes them."""
+        for others in (True, False):
+            for most in range(min(MOST_REASONS, len(met)), -1, -1):
+                some = reasons(most)
+                if others and (most if some else 1) < len(met):
+                    yield self._say("and_others", reasons=some or self._met_first(met[0]))
+                elif some or not others:
+                    yield some or self._met_first(met[0])
+
+    def _met_first(self, option: Option) -> str:
+        """One thing that was in the way of a move, where several were."""
+        movers = [name for name in option.causes if kind_of(name).moves]
+        ids = (movers or option.causes)[:1]
+        return self._sayings.in_the_way(option.reason, option.move, ids, "then", self._naming)
 
     def _fact(self, hindered: list[Option]) -> str:
         decision = self._decision
@@ -154,7 +190,10 @@ class _Telling:
                 preferred=self._sayings.move(decision.move, "name"),
                 free=self._reason(decision.chosen),
             )
-        return self._say("not_blocked", at=self._at, do=do, reasons=self._reason(option))
+        told = self._say("not_blocked", at=self._at, do=do, reasons=self._reason(option))
+        if self._detailed or len(told.split()) <= MOST_WORDS:
+            return told
+        return self._say("not_blocked", at=self._at, do=do, reasons=self._met_first(option))
 
     def _weighed(self) -> str:
         """What the move costs in all, and the next best."""
@@ -193,8 +232,8 @@ class _Telling:
         instead = self._sayings.move(decision.move, "name")
         return self._say(key, at=self._at, do=do, more=self._worth(more), instead=instead)
 
-    def would(self) -> str:
-        """What the foil would have led to."""
+    def would(self, *, named: bool = False) -> str:
+        """What the foil would have led to. `named`: whether it was said what is in its way."""
         stakes = self._explanation.stakes
         if stakes is None or stakes.would is None:
             return ""
@@ -204,6 +243,8 @@ class _Telling:
             key = "would_crash" if first else "would_crash_later"
             if not first and stakes.by_chance:
                 return self._by_chance(stakes)
+            if first and named and {*would.ids} == {*self._decision.option(stakes.foil).causes}:
+                key = "would_crash_there"
             told = self._say(key, who=self._crashed_with(would, first), seconds=self._from_then(would.ticks))
             return self._joined([told, self._missed(would.ids) if first else ""])
         if stakes.dead_end:

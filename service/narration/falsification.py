@@ -36,7 +36,7 @@ class FalsificationWords:
         parts = {"worlds": self._whole(spec.worlds), "planner": self.planner(spec.planner)}
         if job is None:
             return self._say("asked", **parts)
-        return self._say("started", link=REPORT.format(id=job), **parts)
+        return self._say("started", **parts)
 
     def ended(self, spec: Falsification, result: Json, job_id: str) -> str:
         """A line for the log of the session that asked for it."""

@@ -101,12 +101,14 @@ class History:
         return told
 
     def _closest(self, call: ClosestCall) -> str:
+        after = call.before.world.episode_tick
+        seconds = in_seconds(self._sayings, after, call.before.config)
         soon = call.ttc_s is not None and call.ttc_s <= TOLD_TTC_S
         return self._say(
             "closest_soon" if soon else "closest",
-            after=in_seconds(self._sayings, call.before.world.episode_tick, call.before.config),
+            when=self._say("when", "later" if after else "start", after=seconds),
             who=Naming(self._sayings, call.before).thing(call.id),
-            metres=self._sayings.number(round(call.gap_m, 2)),
+            metres=self._sayings.number(round(call.gap_m, 1 if call.gap_m >= 1 else 2)),
             seconds=self._sayings.number(round(call.ttc_s or 0, 1)),
         )
 

@@ -13,6 +13,8 @@ from sim.statistics import wilson
 
 ENOUGH = 5
 """Episodes from which on a rate is told, with its interval."""
+MOST_COUNTED = 20
+"""Moves up to which those of each kind are counted; of more, shares are told."""
 
 
 class Figures:
@@ -86,10 +88,16 @@ class Figures:
         return self._say("steps", "one" if steps == 1 else "many", count=steps, seconds=seconds)
 
     def moves(self, metrics: Metrics) -> str:
-        """The moves made, and the share of each kind of them."""
+        """The moves made, and how many are of each kind; of many moves their shares."""
         counts = {kind: getattr(metrics, kind) for kind in ("forward", "lateral", "diagonal", "stay")}
+        few = "part" if metrics.steps > MOST_COUNTED else "part_few"
         parts = [
-            self._say("part", share=round(100 * count / metrics.steps), kind=self._say("kinds", kind))
+            self._say(
+                "part_all" if 1 < count == metrics.steps else few,
+                share=round(100 * count / metrics.steps),
+                count=count,
+                kind=self._say("kinds", kind),
+            )
             for kind, count in counts.items()
             if count
         ]

@@ -48,21 +48,28 @@ class PlannerReasons:
         self._naming = Naming(sayings, run, ego=decision.av)
         self._straight = decision.option(Move.FORWARD)
 
-    def reasons(self, tense: str) -> str:
-        """What spoke against every move that would have come first; nothing for what is the first choice."""
+    def reasons(self, tense: str, most: int | None = None) -> str:
+        """What spoke against every move that would have come first; nothing for what is the first choice.
+
+        `most`: of so many moves it is told what was in their way, and what closes other ways is left out.
+        """
         decision = self._decision
         if decision.move is Move.STAY and self._standing.columns is None:
             return self._say("walled_in", tense)
-        preferred = [option for option in decision.preferred if option.cell is not None]
-        if decision.move is not Move.FORWARD and self._straight not in preferred:
-            preferred.insert(0, self._straight)
-        met = [option for option in preferred if option.reason.blocks]
-        against = self._against(self._straight, tense) if self._straight in preferred else ""
+        met = self.met()
+        against = self._against(self._straight, tense) if decision.move is not Move.FORWARD else ""
         told = [against] if against else []
-        told += [self._sayings.all_met(met, tense, self._naming)] if met else []
-        if decision.move is Move.STAY:
-            told += self._closed_aside(tense, met)
+        told += [self._sayings.all_met(met[:most], tense, self._naming)] if met[:most] else []
+        if decision.move is Move.STAY and (most is None or not (told or met)):
+            told += self._closed_aside(tense, met)[: None if most is None else 1]
         return self._sayings.joined(told)
+
+    def met(self) -> list[Option]:
+        """Straight on and the moves that would have come first, of those that something was in the way of."""
+        preferred = [option for option in self._decision.preferred if option.cell is not None]
+        if self._decision.move is not Move.FORWARD and self._straight not in preferred:
+            preferred.insert(0, self._straight)
+        return [option for option in preferred if option.reason.blocks]
 
     def reason(self, tense: str, telling: Option | None) -> str:
         """The one of them that says most: what is in the way straight on, or what is waited for.

@@ -9,7 +9,7 @@ from service.actions import Ask
 from service.contract.encode.planners import character_json, own_move_json, planners_json
 from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.answerer import Json, not_so, plain
-from service.narration.charges import in_seconds
+from service.narration.charges import in_seconds, seconds_worth
 from service.narration.futures_told import CONTRARY, end_told, share_told, yes_and_no
 from service.narration.inflection import capital
 from service.narration.options import Options
@@ -20,7 +20,7 @@ from sim.explain.foresight import Foresight
 from sim.explain.own_move import OwnMove, own_move
 from sim.explain.planner_character import Character, character_of
 from sim.explain.planners import Parting, PlannerDrive, PlannersHere, planner_of, planners_here
-from sim.plan import Decision
+from sim.plan import Decision, Measure
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Move, Outcome
@@ -84,6 +84,8 @@ class Planners:
         ask, timeline = asked.ask, asked.timeline
         if ask.what == "character":
             return self._character(ask, timeline.state)
+        if ask.what == "often":
+            return self._often(timeline.state)
         if ask.what == "method":
             return self._method(ask, timeline.state)
         if ask.what == "own":
@@ -124,7 +126,7 @@ class Planners:
         """After `first`, a line for each way to drive; where they are too many words, one for each end."""
         parts = first + self._lines(found, best=best, briefly=False, past=past)
         if parting is not None:
-            parts.append(Part(1, self._parting(parting)))
+            parts.append(Part(1, self._parting(parting, found.state, past=past)))
         if sum(len(part.text.split()) for part in parts) > MOST_WORDS:
             parts = first + self._lines(found, best=best, briefly=True)
         return within(parts, None)
@@ -156,20 +158,32 @@ class Planners:
         key = "line_brief" if briefly else "line"
         return capital(self._say(key, planners=names, what=what, end=self._end(first.foresight)))
 
-    def _parting(self, parting: Parting) -> str:
+    def _parting(self, parting: Parting, state: SimState, *, past: bool) -> str:
         """Where two planners part, and what each makes of the other's move."""
+        ahead = parting.tick - state.world.tick
+        parted = self._say(
+            "parted",
+            "tick" if past else "later" if ahead else "now",
+            tick=parting.tick,
+            seconds=in_seconds(self._sayings, ahead, state.config),
+        )
         told = {
             "own": self._sayings.planner(parting.own.planner),
             "own_move": self._sayings.move(parting.own.move, "name"),
-            "own_of_other": self._option(parting.own, parting.other.move),
+            "own_of_other": self._option(parting.own, parting.other.move, state),
             "other": self._sayings.planner(parting.other.planner),
             "other_move": self._sayings.move(parting.other.move, "name"),
-            "other_of_own": self._option(parting.other, parting.own.move),
+            "other_of_own": self._option(parting.other, parting.own.move, state),
         }
-        return self._say("parting", tick=parting.tick, **told)
+        return self._say("parting", parted=parted, **told)
 
-    def _option(self, decision: Decision, move: Move) -> str:
-        """What a decision says of a move."""
+    def _option(self, decision: Decision, move: Move, state: SimState) -> str:
+        """What a decision says of a move; charges as the seconds of driving that they are worth."""
+        cost, best = decision.option(move).cost, decision.chosen.cost
+        if decision.measure is Measure.COST and cost is not None and best is not None and cost > best:
+            config = state.config_of(decision.av)
+            seconds = seconds_worth(self._sayings, cost - best, decision.measure, config)
+            return self._say("dearer", seconds=seconds)
         texts = zip(decision.options, self._options.texts(decision), strict=True)
         return next(text for option, text in texts if option.move is move)
 
@@ -214,6 +228,19 @@ class Planners:
         if found is None:
             return self._say("uncounted", planner=planner), character_json(None)
         return self._say("character", planner=planner, **self._figures(found)), character_json(found)
+
+    def _often(self, state: SimState) -> tuple[str, Json]:
+        """How often it arrived, crashed and got stuck: in this session, and on many roads."""
+        metrics, name = state.metrics, planner_of(state)
+        counts = {key: getattr(metrics, key) for key in ("episodes", "successes", "crashes", "stuck")}
+        key = "none" if not metrics.episodes else "one" if metrics.episodes == 1 else "many"
+        told, found = [self._say("session", key, **counts)], character_of(name)
+        planner = self._sayings.planner(name)
+        if found is None:
+            told.append(self._say("uncounted", planner=planner))
+        else:
+            told.append(self._say("often", planner=planner, **self._figures(found)))
+        return " ".join(told), {"session": counts} | character_json(found)
 
     def _figures(self, found: Character) -> dict[str, str]:
         shares = {name: getattr(found, name) / found.roads for name in ("arrived", "crashed", "stuck")}

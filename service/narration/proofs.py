@@ -36,32 +36,47 @@ class Proofs:
         self._explanation = explanation
         self._naming = naming
 
-    def of_why(self) -> list[Part]:
-        """What held what, what flips the move by itself, then what only does so together with others."""
+    def least(self) -> int:
+        """Words to leave for what held what and the first cause; none where all that is told is a cause."""
+        chain = self._chain(0)
+        return _words(chain) + _words(self._alone(0)) if chain else 0
+
+    def of_why(self, told: str = "") -> list[Part]:
+        """What held what, what flips the move by itself, then what only does so together with others.
+
+        `told`: the sentence before it.
+        """
         explanation = self._explanation
         moves = {flip.removed: flip.move for flip in explanation.counterfactuals}
         causes = (*explanation.causes, *explanation.also)
-        alone = [cause for cause in causes if cause.necessary]
         others = [cause for cause in causes if not cause.necessary and cause.group]
-        parts = [Part(2, self._chain()), Part(1, self._alone(alone, moves, sole=len(causes) == 1))]
-        told = dict.fromkeys(self._stand_in(cause, moves[cause.group]) for cause in others)
-        room = max(1, MOST_TOLD - len(alone))
-        parts += [Part(3 + at, text) for at, text in enumerate(list(told)[:room])]
+        left, room = MOST_WORDS - _words(told), MOST_WORDS // 2
+        chain = self._chain(left - _words(self._alone(0)))
+        rank = 2
+        if chain and explanation.decision.measure is Measure.RANK:  # `told` names what was in the way
+            rank, room = 1, min(room, left - _words(chain))
+        parts = [Part(rank, chain), Part(1, self._alone(room))]
+        together = dict.fromkeys(self._stand_in(cause, moves[cause.group]) for cause in others)
+        most = max(1, MOST_TOLD - sum(cause.necessary for cause in causes))
+        parts += [Part(3 + at, text) for at, text in enumerate(list(together)[:most])]
         hint = Part(LEAST, self._say("go_on") if self._explanation.untried and not self._detailed else "")
         return [*parts, Part(1, self._untried()), hint]
 
-    def _alone(self, alone: list[Cause], moves: dict[tuple[str, ...], Move], *, sole: bool) -> str:
-        """What each flips the move by itself: up to three, and how many more."""
+    def _alone(self, room: int) -> str:
+        """What each flips the move by itself, in so many words: up to three, at least one, how many more."""
+        moves = {flip.removed: flip.move for flip in self._explanation.counterfactuals}
+        causes = (*self._explanation.causes, *self._explanation.also)
+        alone, sole = [cause for cause in causes if cause.necessary], len(causes) == 1
+        room -= _words(self._untried())
         for most in range(min(MOST_TOLD, len(alone)), 0, -1):
             by_move: dict[Move, list[Cause]] = {}
             for cause in alone[:most]:
                 by_move.setdefault(moves[cause.group], []).append(cause)
-            flips = [self._without(causes, self._do(move), sole) for move, causes in by_move.items()]
+            flips = [self._without(each, self._do(move), sole) for move, each in by_move.items()]
             if more := len(alone) - most:
                 flips.append(self._say("more_alone", "one" if more == 1 else "many", count=more))
             told = self._say("run_again", flips=capital(self._sayings.listed(flips)))
-            room = MOST_WORDS // 2 - len(self._untried().split())
-            if most == 1 or self._detailed or len(told.split()) <= room:
+            if most == 1 or self._detailed or _words(told) <= room:
                 return told
         return ""
 
@@ -83,14 +98,26 @@ class Proofs:
             return self._say("stand_in", one=one, others=others, who=who, do=do)
         return self._say("together", one=one, who=who, do=do)
 
-    def _chain(self) -> str:
-        """That what stood in the way did so only because of something else, or what would be there else."""
-        links = dict.fromkeys((link.blocker, link.by, link.behind) for link in self._explanation.chain)
-        told = [
-            self._say("behind" if behind else "held", who=self._name(who), by=self._name(by))
-            for who, by, behind in links
-        ]
-        return " ".join(told[:1])
+    def _chain(self, room: int) -> str:
+        """That what stood in the way did so only because of something else, or what would be there else.
+
+        In so many words, where that can be.
+        """
+        if not self._explanation.chain:
+            return ""
+        link = self._explanation.chain[0]
+        key = "behind" if link.behind else "held"
+        if link.behind and (link.by is None or link.leads):
+            key = f"behind_{link.leads or 'free'}"
+        parts = {
+            "who": self._name(link.blocker),
+            "by": "" if link.by is None else self._name(link.by),
+            "place": self._sayings.move(link.move, "place"),
+        }
+        told = self._say(key, **parts)
+        if key == "behind" and not self._detailed and _words(told) > room:
+            return self._say("behind_short", **parts)
+        return told
 
     def _untried(self) -> str:
         return self._say("untried") if self._explanation.untried else ""
@@ -177,6 +204,10 @@ class Proofs:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("why", *keys, **parts)
+
+
+def _words(text: str) -> int:
+    return len(text.split())
 
 
 def called(name: str, sayings: Sayings, naming: Naming) -> str:

@@ -64,7 +64,13 @@ TOLD_SINGLY = 3
 """More things than this, put into cells one after another, are told at once."""
 
 
-_OF_ERRING_SENSORS: Final = ("detection_sensitivity", "sensor_range_m", "sensor_noise", "false_positive_rate")
+_OF_ERRING_SENSORS: Final = (
+    "detection_sensitivity",
+    "sensor_range_m",
+    "sensor_noise",
+    "false_positive_rate",
+    "sensor_latency",
+)
 """Settings that the perfect sensor does not heed."""
 
 

@@ -17,11 +17,16 @@ from service.yaml_files import read_cached_yaml
 from sim.actions import Cancel, Condition, Pause, Trigger
 from sim.events import Event, EventType
 from sim.session.applied import Applied
+from sim.session.conditions import SETTINGS
 from sim.session.errors import EditError
 from sim.triggers import MAX_FAILURES, Triggers
 
 if TYPE_CHECKING:
     from service.narration.replies import Replies
+
+
+_NOT_NAMED = ("fact", "kind", "side", *SETTINGS)
+"""Parts of a condition that the name of its words leaves out."""
 
 
 class Rules:
@@ -104,7 +109,7 @@ class Rules:
         """A condition, to stand at the beginning of a rule (`when`) or after "until" (`until_when`)."""
         words = self._sayings.words("rules", form)
         keys = {name: getattr(condition, name) for name in condition.__dataclass_fields__}
-        said = [name for name, value in keys.items() if value is not None and name not in ("fact", "kind")]
+        said = [name for name, value in keys.items() if value is not None and name not in _NOT_NAMED]
         if condition.fact == "near" and condition.kind is not None:
             said.append("kind")
         named = "_".join([condition.fact, *sorted(said)])
@@ -112,16 +117,34 @@ class Rules:
         single = any(keys[name] == 1 for name in ("ticks", "seconds") if keys[name] is not None)
         kind = condition.kind
         parts = {name: self._number(value) for name, value in keys.items() if name != "kind"}
-        parts |= {"lane": self._lane(condition)}
+        parts |= {"lane": self._lane(condition), "side": self._side(condition), "is": self._is(condition)}
         if kind is not None:
             parts |= {"a": self._sayings.say("words", "a", kind), "things": self._sayings.things(kind, 2)}
         exactly = condition.at_least is not None and condition.at_least == condition.at_most
-        template = words[one if single and one in words else "count_exactly" if exactly else named]
+        template = words[
+            "setting"
+            if condition.fact in SETTINGS
+            else one
+            if single and one in words
+            else "count_exactly"
+            if exactly
+            else named
+        ]
         return str(template).format(**parts)
 
     def _lane(self, condition: Condition) -> str:
         lane, words = condition.lane, self._sayings.words("rules", "lanes")
         return "" if lane is None else str(words.get(lane, words["other"])).format(lane=lane)
+
+    def _side(self, condition: Condition) -> str:
+        return "" if condition.side is None else str(self._sayings.words("rules", "sides")[condition.side])
+
+    def _is(self, condition: Condition) -> str:
+        """A clause about a setting: "it rains", "it no longer rains"."""
+        if condition.fact not in SETTINGS:
+            return ""
+        form = "no_longer" if condition.no_longer else "is"
+        return str(self._sayings.words("rules", form)[getattr(condition, condition.fact)])
 
     def _number(self, value: Any) -> Any:
         return self._sayings.number(value) if isinstance(value, float) else value

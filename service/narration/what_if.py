@@ -61,7 +61,7 @@ class WhatIfs:
         if ask.move is not None:
             return self._foils.supposed(asked)
         change = ask.change or ()
-        actions = imagined_actions(change)
+        actions = imagined_actions(change) * (ask.count or 1)
         if not actions:
             return plain(self._sayings, ask, timeline.state, self._say("only_road"))
         try:
@@ -73,7 +73,7 @@ class WhatIfs:
             told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=message))
             return told | {"evidence": {"code": error.category, "field": error.field, "message": message}}
         text = self.text(ask, found)
-        if len(actions) < len(change):
+        if len(imagined_actions(change)) < len(change):
             text = f"{text} {self._say('rest_aside')}"
         past, facts = self._had_been.told(asked)
         text = f"{past} {text}" if past else text
@@ -253,8 +253,12 @@ class Conditions:
         self._sayings = sayings
 
     def clauses(self, found: WhatIf) -> list[str]:
-        """One for each action that changed anything."""
+        """One for each action that changed anything; a move made several times running is told once."""
         told, before = [], found.state
+        moves = [each.action.move for each in found.done if isinstance(each.action, Drive)]
+        if len(moves) == len(found.done) > 1 and len(set(moves)) == 1:
+            do = self._sayings.move(moves[0], "do")
+            return [self._say("drive_times", do=do, times=len(moves))]
         for applied in found.done:
             touched = applied.changes or applied.added or applied.moved or applied.events
             if applied.removed or (touched and not isinstance(applied.action, Remove)):

@@ -10,7 +10,7 @@ from service.security.hosts import Hosts, is_loopback
 from service.security.link_tickets import LinkTickets
 from service.security.quotas import Quotas
 from service.security.rate_limit import RateLimiter
-from service.security.ws_tickets import Tickets
+from service.security.ws_tickets import SignedTickets, Tickets
 from service.settings import Settings
 
 STRANGERS_PER_MINUTE = 600
@@ -26,7 +26,7 @@ class Guard:
 
     def __init__(self, settings: Settings) -> None:
         self.key = Key(settings.api_key)
-        self.tickets = Tickets()
+        self.tickets = Tickets() if settings.workers == 1 else SignedTickets(settings.api_key)
         self.link_tickets = LinkTickets(settings.api_key)
         self.hosts = Hosts(settings.allowed_hosts or "")
         per_minute = settings.changes_per_minute

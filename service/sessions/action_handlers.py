@@ -141,7 +141,8 @@ def _reach_goal(transaction: Transaction, action: Goal, sequence: int, position:
 def _evaluate(transaction: Transaction, action: Evaluate, _sequence: int, position: int) -> JobAsked:
     try:
         state = transaction.timeline.state
-        return JobAsked(evaluation_of(action, state.config_of(), state))
+        saved = transaction.undo_stack.saved_states()
+        return JobAsked(evaluation_of(action, state.config_of(), state, saved=saved))
     except EvaluationError as error:
         raise refuse_evaluation(error, transaction.refusals, f"actions.{position}.") from error
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import secrets
 from dataclasses import replace
 from datetime import UTC, datetime
 from functools import partial
@@ -41,7 +40,7 @@ async def build_fork(
     partial_changes, timeline = parent.partial_changes.copy(), parent.timeline.copy()
     point = await services.work.in_thread(fork_point, parent.id, partial_changes, timeline, tick)
     record = SessionRecord(
-        id=secrets.token_urlsafe(16),
+        id=services.shard.new_id(),
         name=name,
         created_at=datetime.now(UTC),
         config=parent.record.config,

@@ -10,7 +10,6 @@ import asyncio
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from dataclasses import replace
-from threading import Event
 from typing import TYPE_CHECKING
 
 import structlog
@@ -26,10 +25,10 @@ from service.sessions.part import SessionPart
 from service.sessions.perform import perform_actions, tell_outcome
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.started_jobs import forget_jobs, start_jobs
-from service.sessions.transaction import Transaction, check_step_ticks
+from service.sessions.transaction import Flag, Transaction, check_step_ticks
 from service.sessions.utterance import Outcome, ReachabilityNotice, Utterance
 from service.store import StoredResponse, StoreError
-from sim.events import Event as RoadEvent
+from sim.events import Event
 from sim.explain.summary import long_to_tell
 from sim.session.timeline import Timeline
 from sim.state import StepResult
@@ -73,7 +72,7 @@ class Changes(SessionPart):
         if isinstance(utterance, Utterance):
             language = utterance.language or session.language
             check_step_ticks(utterance.actions, session.services.settings.max_step_ticks, language)
-        abandoned = Event()
+        abandoned = Flag()
         task = asyncio.ensure_future(
             self.perform(utterance, dry_run=dry_run, preconditions=preconditions, abandoned=abandoned)
         )
@@ -91,7 +90,7 @@ class Changes(SessionPart):
         *,
         dry_run: bool,
         preconditions: Preconditions = NO_PRECONDITIONS,
-        abandoned: Event | None = None,
+        abandoned: Flag | None = None,
     ) -> Outcome:
         """Perform an utterance, or one made when its turn comes. Raises a `ProblemError`."""
         session = self._session
@@ -157,7 +156,7 @@ class Changes(SessionPart):
         self._commit(transaction, outcome, told)
         return outcome
 
-    def _notice(self, event: RoadEvent | None, transaction: Transaction) -> ReachabilityNotice | None:
+    def _notice(self, event: Event | None, transaction: Transaction) -> ReachabilityNotice | None:
         if event is None:
             return None
         run = transaction.timeline.state

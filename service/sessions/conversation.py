@@ -91,6 +91,8 @@ class Conversation:
         self._episode: Episode | None = None
         self._durable: Conversation | None = None
         """the memory without unstored talk, where that differs"""
+        self._ids: tuple[Mapping[int, str], Mapping[int, str], frozenset[str]] | None = None
+        """the ids of what was on the road when they were last asked for, with what they were read from"""
 
     @property
     def explained(self) -> Ask | None:
@@ -298,7 +300,7 @@ class Conversation:
 
     def topic(self, world: World, phrases: Phrases, names: Iterable[str] = ()) -> Topic:
         """What a sentence said now may refer to; `names` are those of bookmarks."""
-        there = {*world.movers.values(), *world.hazards.values()} if self._episode == _episode(world) else ()
+        there = self._ids_on(world) if self._episode == _episode(world) else frozenset[str]()
         kinds: set[str | None] = {str(kind_of(name)) for name in self._things if name in there}
         kinds = kinds or {self._kind}
         return Topic(
@@ -322,13 +324,27 @@ class Conversation:
             kind=self._kind,
             tick=self._tick,
             offered=self._offered,
-            others=sum(kind_of(name) in kinds for name in set(there) - set(self._things)),
+            others=self._count_others(there, kinds),
             removed=self._removed,
             where=self._where,
             phrases=phrases,
             names=frozenset(name.casefold() for name in names),
             columns=world.road.columns,
         )
+
+    def _ids_on(self, world: World) -> frozenset[str]:
+        """The ids of all things on a road; kept, since a world is asked for many times before it changes."""
+        known = self._ids
+        if known is None or known[0] is not world.movers or known[1] is not world.hazards:
+            found = frozenset((*world.movers.values(), *world.hazards.values()))
+            known = self._ids = world.movers, world.hazards, found
+        return known[2]
+
+    def _count_others(self, there: frozenset[str], kinds: set[str | None]) -> int:
+        """How many things of some kinds there are beside those spoken of."""
+        if kinds == {None}:
+            return 0
+        return sum(name.rpartition("-")[0] in kinds for name in there.difference(self._things))
 
 
 def _episode(world: World) -> Episode:

@@ -7,7 +7,6 @@ its last tick.
 from __future__ import annotations
 
 import asyncio
-import secrets
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
 from datetime import UTC, datetime
@@ -19,6 +18,7 @@ from service.actions import Action
 from service.problems import (
     FieldProblem,
     Invalid,
+    NotOfThisShard,
     NotRestorable,
     NotSaved,
     TooManySessions,
@@ -42,6 +42,7 @@ from service.sessions.services import SessionServices
 from service.sessions.session import Session
 from service.sessions.transaction import check_step_ticks
 from service.sessions.work_estimate import log_units
+from service.sharding import shard_of
 from service.store import (
     BookmarkRecord,
     EntryRecord,
@@ -134,7 +135,7 @@ class SessionManager:
         self._creating += 1
         try:
             record = SessionRecord(
-                id=secrets.token_urlsafe(16),
+                id=self._services.shard.new_id(),
                 name=name,
                 created_at=datetime.now(UTC),
                 config=asdict(config),
@@ -214,11 +215,12 @@ class SessionManager:
         await session.reachability.wait_until_idle()
 
     async def get(self, session_id: str) -> Session:
-        """The session with this id, restored if it is not live. Raises `UnknownSession`."""
+        """The session with this id, restored if not live. Raises `UnknownSession` or `NotOfThisShard`."""
         live = self._live.get(session_id)
         if live is not None:
             self.idle_times.touch(session_id)
             return live
+        self._check_shard(session_id)
         if session_id in self._expiring:
             raise UnknownSession
         # All who ask at once wait for the same replay.
@@ -253,6 +255,7 @@ class SessionManager:
 
     async def delete(self, session_id: str, preconditions: Preconditions = NO_PRECONDITIONS) -> None:
         """Delete a session after the change under way. Raises `UnknownSession` or `PreconditionFailed`."""
+        self._check_shard(session_id)
         live = self._live.get(session_id)
         if live is None and preconditions.sequences is not None:
             live = await self.get(session_id)
@@ -275,7 +278,7 @@ class SessionManager:
 
     async def expire(self, session_id: str) -> bool:
         """Delete a stored session unless somebody uses it; returns whether it was deleted."""
-        if session_id in self._live or session_id in self._restoring:
+        if session_id in self._live or session_id in self._restoring or not self.owns(session_id):
             return False
         self._expiring.add(session_id)
         try:
@@ -286,6 +289,15 @@ class SessionManager:
             self._stored_count -= 1
             self.snapshots.forget(session_id)
         return found
+
+    def owns(self, session_id: str) -> bool:
+        """Whether a session lives here, if there is one of this id."""
+        return self._services.shard.owns(session_id)
+
+    def _check_shard(self, session_id: str) -> None:
+        """Raise `NotOfThisShard`: a session that were live in two processes would have two logs."""
+        if not self.owns(session_id):
+            raise NotOfThisShard(shard_of(session_id, self._services.shard.count))
 
     def evictor(self) -> Evictor:
         """The evictor of idle sessions."""

@@ -56,7 +56,7 @@ def make_outcome(
     return Outcome(
         utterance=utterance,
         facts=facts,
-        reply=f"{said} {noticed}".strip() if noticed else said,
+        reply=" ".join(part for part in (utterance.preface, said, noticed) if part),
         done=done,
         notice=notice,
         answer=answers[-1] if answers else None,

@@ -8,6 +8,7 @@ from service.jobs import JobRunner
 from service.sessions.narrator_protocol import NarratorProtocol
 from service.sessions.scheduler.clock import Clock
 from service.settings import Settings
+from service.sharding import SINGLE, Shard
 from service.store import Store
 from service.work.executor import WorkExecutor
 
@@ -22,6 +23,8 @@ class SessionServices:
     settings: Settings
     jobs: JobRunner | None = None
     """what runs evaluations; None: they are refused"""
+    shard: Shard = SINGLE
+    """which part of all sessions this is"""
     work: WorkExecutor = field(init=False)
 
     def __post_init__(self) -> None:

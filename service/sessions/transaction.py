@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain, islice
-from threading import Event
 from typing import Any
 
 from service.actions import Action, Redo, Rewind, Undo
@@ -30,6 +29,23 @@ from sim.planner_names import installed
 from sim.session.edits import differences
 from sim.session.timeline import Timeline
 from sim.state import SimState
+
+
+class Flag:
+    """Set once, by one thread, and looked at by another; a `threading.Event` takes a lock to be made."""
+
+    __slots__ = ("_set",)
+
+    def __init__(self) -> None:
+        self._set = False
+
+    def set(self) -> None:
+        """Set it for good."""
+        self._set = True
+
+    def is_set(self) -> bool:
+        """Whether it is set."""
+        return self._set
 
 
 class Transaction:
@@ -55,7 +71,7 @@ class Transaction:
         self.paused = paused
         self.playback_speed = speed
         self.undo_stack = history.copy()
-        self.abandoned = Event()
+        self.abandoned = Flag()
         """set where nobody waits for the outcome any more: a search ends then"""
         self._jumped = False
         self._savepoint = _Savepoint(timeline, paused, speed)
@@ -65,7 +81,7 @@ class Transaction:
         return {key: value for key, value in self.__dict__.items() if key not in ("refusals", "abandoned")}
 
     def __setstate__(self, parts: dict[str, Any]) -> None:
-        self.__dict__.update(parts, refusals=refusals(parts["language"]), abandoned=Event())
+        self.__dict__.update(parts, refusals=refusals(parts["language"]), abandoned=Flag())
 
     def perform(self, sequence: int, actions: Sequence[Action]) -> tuple[Fact, ...]:
         """Do the actions of one utterance. Raises a `ProblemError` naming the first that cannot be."""

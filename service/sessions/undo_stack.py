@@ -15,6 +15,7 @@ from service.sessions.rewind import TimeJump
 from service.sessions.scheduler.playback_speed import PlaybackSpeed
 from sim.session.persistent_list import PersistentList
 from sim.session.timeline import Entry, Timeline
+from sim.state import SimState
 
 MAX_JUMPS = 100
 """Largest number of time jumps that can be undone, each of which holds a timeline."""
@@ -86,6 +87,10 @@ class UndoStack:
     def steps(self) -> int:
         """The number of steps that can be undone."""
         return len(self.done) + self.base_steps
+
+    def saved_states(self) -> dict[str, SimState]:
+        """The moments that were saved, by name, in the order in which the names were given."""
+        return {name: moment.timeline.state for name, moment in self.bookmarks.items()}
 
     def is_step_after(self, before: UndoStack) -> bool:
         """Whether the latest step is a new one, compared with the stack as it was before."""

@@ -20,6 +20,8 @@ class Utterance:
     text: str | None = None
     supposes: str | None = None
     """what its questions were said to be about, beyond their keys (`Asked.supposes`)"""
+    preface: str = ""
+    """what its reply begins with: as what it was read"""
     language: str | None = None
     """the language in which it is answered or refused; None is the session's"""
 

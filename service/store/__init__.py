@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from service.sharding import SINGLE, Shard
 from service.store.base import (
     BookmarkRecord,
     Branch,
@@ -52,14 +53,17 @@ def __getattr__(name: str) -> object:
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def open_store(url: str) -> Store:
-    """The store a URL names, not yet opened. Raises `StoreError` for a URL of no known kind."""
+def open_store(url: str, shard: Shard = SINGLE) -> Store:
+    """The store a URL names, not yet opened. Raises `StoreError` for a URL of no known kind.
+
+    `shard`: the part of a service that opens it, where several processes share a PostgreSQL database.
+    """
     if url == "memory:":
         return MemoryStore()
     if url.startswith(("sqlite:///", "postgresql://", "postgresql+asyncpg://")):
         from service.store.sql import SqlStore
 
-        return SqlStore(url)
+        return SqlStore(url, shard)
     kind = url.partition(":")[0]  # the rest may hold a password
     raise StoreError(
         f"{kind!r} names no kind of database known here; use sqlite:///<file>, "

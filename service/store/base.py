@@ -257,6 +257,9 @@ class Store(Protocol):
     async def backup(self, target: Path) -> None:
         """Copy everything into a new SQLite file (`service.store.backup`), while others use the store."""
 
+    async def room(self) -> int | None:
+        """Bytes that the disk of this machine has left for the store; None where it is not on one."""
+
     async def create_job(self, record: JobRecord) -> JobRecord:
         """Store a new job; returns it numbered."""
 

@@ -2,9 +2,10 @@
 
 A session is live in one process, so a second service on the same database would believe that it owns the same
 sessions: it is refused at its start. SQLite's file is locked (versions before 3.51.3 can also lose a WAL
-reset when several connections write); PostgreSQL gives an advisory lock that ends with the connection. What
-is acknowledged is on disk: `synchronous=FULL`, `synchronous_commit=on`. SQLite's calls run on the driver's
-own thread, never on the event loop.
+reset when several connections write); PostgreSQL gives an advisory lock that ends with the connection.
+Shards of one service share the database: each locks its own number, and none opens beside another service.
+What is acknowledged is on disk: `synchronous=FULL`, `synchronous_commit=on`. SQLite's calls run on the
+driver's own thread, never on the event loop.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -27,6 +29,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncEngine, create_async_engine
 from sqlalchemy.pool import AsyncAdaptedQueuePool
 
+from service.sharding import SINGLE, Shard
 from service.store import wal
 from service.store.backup import copy_server, copy_sqlite
 from service.store.base import LockedError, StoreError
@@ -177,9 +180,10 @@ def _check_permissions(path: Path) -> None:
 class Postgres:
     """A PostgreSQL server, by the driver asyncpg (extra `postgres`)."""
 
-    def __init__(self, url: URL) -> None:
+    def __init__(self, url: URL, shard: Shard = SINGLE) -> None:
         if find_spec("asyncpg") is None:
             raise StoreError("PostgreSQL needs its driver: pip install 'roadtalk[postgres]'")
+        self._locks = _locks(shard)
         self._url = url.set(drivername="postgresql+asyncpg")
         self.name = f"The database {url.database or ''} on {url.host or 'this machine'}"
 
@@ -191,7 +195,7 @@ class Postgres:
         server = {"application_name": "roadtalk", "lock_timeout": f"{_BUSY_S * 1000:.0f}"}
         return _one_connection(
             self._url,
-            _prepare_postgres,
+            partial(_prepare_postgres, self._locks),
             connect_args={"timeout": _ANSWER_S, "command_timeout": _ANSWER_S, "server_settings": server},
         )
 
@@ -214,13 +218,13 @@ class Postgres:
             raise StoreError(f"{self.name} cannot be read: {driver_message(error)}") from error
 
 
-def database_for(url: str) -> Sqlite | Postgres:
+def database_for(url: str, shard: Shard = SINGLE) -> Sqlite | Postgres:
     """The database that a URL names. Raises `StoreError`."""
     try:
         parts = make_url(url)
     except (ArgumentError, ValueError) as error:
         raise StoreError("The database's URL cannot be read.") from error
-    return Sqlite(parts) if parts.get_backend_name() == "sqlite" else Postgres(parts)
+    return Sqlite(parts) if parts.get_backend_name() == "sqlite" else Postgres(parts, shard)
 
 
 def driver_message(error: Exception) -> str:
@@ -251,17 +255,24 @@ def _end_left_open(connection: Any, _record: Any, state: Any) -> None:
         connection.rollback()
 
 
-def _prepare_postgres(connection: Any, _record: Any) -> None:
+def _locks(shard: Shard) -> tuple[str, ...]:
+    """The locks of a process: the whole database alone, or shared, and a shard's own number alone."""
+    if shard.count == 1:
+        return (f"pg_try_advisory_lock({_LOCK})",)
+    return (f"pg_try_advisory_lock_shared({_LOCK})", f"pg_try_advisory_lock({_LOCK}, {shard.number})")
+
+
+def _prepare_postgres(locks: tuple[str, ...], connection: Any, _record: Any) -> None:
     cursor = connection.cursor()
     cursor.execute("SET synchronous_commit TO on")
     # The server may take a moment to see that our own connection from before is gone.
-    for _ in range(_TRIES):
-        cursor.execute(f"SELECT pg_try_advisory_lock({_LOCK})")
-        (held,) = cursor.fetchone()
-        if held:
+    tries = _TRIES
+    for lock in locks:
+        while not (held := _take(cursor, lock)) and (tries := tries - 1) > 0:
+            cursor.execute(f"SELECT pg_sleep({_BUSY_S / _TRIES})")
+            cursor.fetchone()
+        if not held:
             break
-        cursor.execute(f"SELECT pg_sleep({_BUSY_S / _TRIES})")
-        cursor.fetchone()
     cursor.close()
     connection.commit()
     if not held:
@@ -270,3 +281,9 @@ def _prepare_postgres(connection: Any, _record: Any) -> None:
             "The database is locked: another service uses it. Stop that one, or name another in "
             "ROADTALK_DATABASE."
         )
+
+
+def _take(cursor: Any, lock: str) -> bool:
+    cursor.execute(f"SELECT {lock}")
+    (held,) = cursor.fetchone()
+    return bool(held)

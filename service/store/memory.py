@@ -236,6 +236,10 @@ class MemoryStore:
         """See `Store.secret`."""
         return self._secrets.setdefault(name, secrets.token_bytes(SECRET_BYTES))
 
+    async def room(self) -> int | None:
+        """See `Store.room`."""
+        return None
+
     async def backup(self, target: Path) -> None:
         """See `Store.backup`."""
         # Imported here: a service in memory has no use for SQLAlchemy otherwise.

@@ -10,6 +10,7 @@ well, the caller gets an error, and what may have been committed is deleted with
 from __future__ import annotations
 
 import asyncio
+import shutil
 import sqlite3
 import threading
 from collections.abc import AsyncIterator, Sequence
@@ -22,6 +23,7 @@ from sqlalchemy import delete, insert
 from sqlalchemy.exc import DBAPIError, SQLAlchemyError
 from sqlalchemy.ext.asyncio import AsyncConnection, AsyncEngine
 
+from service.sharding import SINGLE, Shard
 from service.store.base import EntryRecord, StoredResponse, StoreError
 from service.store.engines import Postgres, Sqlite, database_for, driver_message
 from service.store.log_writer import LogWriter, PendingEntry
@@ -43,10 +45,10 @@ TURN_S: Final = 30.0
 class SqlStore(SqlSessions, SqlResponses, SqlPhrases, SqlJobs):
     """A `Store` in the database of a URL (`sqlite:///roadtalk.db`, `postgresql://host/name`)."""
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, shard: Shard = SINGLE) -> None:
         """Raises `StoreError` where the database's driver is not installed."""
         super().__init__()
-        self._kind: Sqlite | Postgres = database_for(url)
+        self._kind: Sqlite | Postgres = database_for(url, shard)
         self._engine: AsyncEngine | None = None
         self._turn = asyncio.Lock()
         """held by whoever uses the connection"""
@@ -90,6 +92,15 @@ class SqlStore(SqlSessions, SqlResponses, SqlPhrases, SqlJobs):
         if session_id in self.unseen:
             raise StoreError(f"no session {session_id}")
         await self._log.append(session_id, entry, answer)
+
+    async def room(self) -> int | None:
+        """See `Store.room`."""
+        if not isinstance(self._kind, Sqlite):
+            return None
+        try:
+            return shutil.disk_usage(self._kind.path.resolve().parent).free
+        except OSError:
+            return None
 
     async def backup(self, target: Path) -> None:
         """See `Store.backup`."""

@@ -15,6 +15,7 @@ from service.window.console import Console
 from service.window.exchange import Exchange
 from service.window.local_session import Game
 from service.window.panels import PANELS, Panels
+from service.window.spoken import spoken_act
 from service.window.texts import text
 from sim.actions import Adjust, Drive, Reset, SetMode
 from sim.types import Mode, Move
@@ -211,8 +212,27 @@ class Controls:
         """Say a sentence, from the line or from what is offered."""
         self.console.line.set(text)
         text = self.console.line.send()
-        if text:
+        act = spoken_act(text)
+        if act is not None:
+            self._act(text, *act)
+        elif text:
             self.game.say(text)
+
+    def _act(self, said: str, name: str, view: str) -> None:
+        """What the window does by itself, because it was said."""
+        match name:
+            case "enlarge":
+                self.console.take(Exchange(said, self.panels.enlarge(view)))
+            case "all_views":
+                self.console.take(Exchange(said, self.panels.restore()))
+            case "fullscreen":
+                self.fullscreen = not self.fullscreen
+                told = text("acts_told", "fullscreen", "on_" if self.fullscreen else "off_")
+                self.console.take(Exchange(said, told))
+            case "picture":
+                self._picture()
+            case "help" | "quit":
+                self.overlay = name
 
     def _do(self, *actions: Action) -> None:
         self.game.do(*actions)

@@ -17,6 +17,8 @@ from service.sessions.session import Session
 KEPT: Final = 400
 DECISION: Final = "moved"
 """The type of such a line, which decides its colour."""
+AT_ONCE: Final = 16
+"""More lines than one tick brings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,12 +63,19 @@ class DecisionLines:
         decision, run = found
         text = self._session.narrator.decision(decision, run)
         last = self._lines[-1] if self._lines else None
-        after = self._session.log.last_number
+        after = self._before(tick)
         self.changes += 1
         if last is not None and (last.text, last.last, last.after) == (text, tick - 2, after):
             self._lines[-1] = replace(last, last=tick - 1)
         elif last is None or last.last < tick - 1:
             self._lines.append(DecisionLine(tick - 1, tick - 1, text, after))
+
+    def _before(self, tick: int) -> int:
+        """The number of the log's newest line from before a tick: what came of a decision follows it."""
+        for line in reversed(self._session.log.latest(AT_ONCE)):
+            if line.tick < tick:
+                return line.number
+        return max(0, self._session.log.last_number - AT_ONCE)
 
     def among(self, lines: Sequence[LogEvent]) -> list[LogEvent | DecisionLine]:
         """The log's lines and the decisions, in the order in which they came."""

@@ -43,6 +43,11 @@ class Panels:
         self.large = name
         return text("panels", "large", view=_named(name))
 
+    def restore(self) -> str:
+        """Show all of them, none larger."""
+        self.shown, self.large = set(PANELS), None
+        return text("panels", "all_again")
+
     def show(self, name: str) -> str:
         """Show one; one that is shown already becomes large."""
         if name in self.shown and (self.large or name) == name:

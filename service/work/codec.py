@@ -16,6 +16,10 @@ LENGTH: Final = Struct(">Q")
 """The length of a frame in bytes, before it."""
 
 
+SHARE: Final = Struct(">d")
+"""How much of a call is done: what follows a length of 0 among the answers."""
+
+
 class NotTransferableError(Exception):
     """A call that cannot be pickled, such as one of a function inside another."""
 

@@ -23,6 +23,7 @@ from service.settings import Settings
 from service.work.asker import CURRENT_ASKER, Asker
 from service.work.codec import NotTransferableError, pack_call, unpack_result
 from service.work.live_lane import LiveLane
+from service.work.progress import HEARD
 from service.work.queue import WorkQueue
 from service.work.units import INLINE, THREAD
 from service.work.worker import Worker, WorkerLostError
@@ -136,7 +137,8 @@ class WorkExecutor:
         async with self.queue.worker(client) as worker:
             try:
                 async with asyncio.timeout(seconds):
-                    return await worker.call(packed)
+                    heard = HEARD.get()
+                    return await (worker.call(packed) if heard is None else worker.call(packed, heard))
             except TimeoutError:
                 self.fates["stopped"] += 1
                 raise TooMuchWork(

@@ -13,13 +13,11 @@ from contextlib import asynccontextmanager, contextmanager
 from typing import Final
 
 from service.problems import Stopped, TooMuchAtOnce
+from service.work.units import UNIT_S
 from service.work.worker import Worker
 
 MOST_WAITING: Final = 64
 """Pieces of work that wait at most, of all clients together."""
-
-UNIT_S: Final = 3e-7
-"""About how long a unit of work takes, for `Retry-After`."""
 
 LONGEST_WAIT_S: Final = 60
 """What `Retry-After` says at most."""

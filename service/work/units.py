@@ -16,6 +16,9 @@ from sim.plan import traits_of
 from sim.plan.protocol import SEARCH
 from sim.state import SimState
 
+UNIT_S: Final = 3e-7
+"""About how long a unit takes, in seconds."""
+
 LEAST_CELLS: Final = 200
 """Units of a tick without a search, on a small road."""
 

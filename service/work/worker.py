@@ -12,15 +12,16 @@ import threading
 import weakref
 from contextlib import suppress
 from subprocess import PIPE, Popen
-from typing import Final
+from typing import IO, Final
 
 from anyio import CapacityLimiter, to_thread
 
-from service.work.codec import LENGTH
+from service.work.codec import LENGTH, SHARE
+from service.work.progress import Heard
 from service.work.worker_main import READY
 
 END_S: Final = 2.0
-"""How long a killed process is waited for; it takes milliseconds."""
+"""How long a killed process is waited for; it takes tens of milliseconds."""
 
 _PROGRAM: Final = (
     "import sys; sys.path[:] = sys.argv[2:]; "
@@ -50,11 +51,14 @@ class Worker:
         process = self._process
         return None if process is None else process.pid
 
-    async def call(self, packed: bytes) -> bytes:
-        """The answer to a packed call. Raises `WorkerLostError`; kills the process when cancelled."""
+    async def call(self, packed: bytes, heard: Heard | None = None) -> bytes:
+        """The answer to a packed call. Raises `WorkerLostError`; kills the process when cancelled.
+
+        `heard`: told how much of it is done, by calls that tell that.
+        """
         try:
             return await to_thread.run_sync(
-                self._exchange, packed, self._kills, limiter=self._one, abandon_on_cancel=True
+                self._exchange, packed, self._kills, heard, limiter=self._one, abandon_on_cancel=True
             )
         except BaseException:  # what is under way is of no use to anybody
             self.kill()
@@ -69,7 +73,7 @@ class Worker:
         if ending is not None:
             ending()
 
-    def _exchange(self, packed: bytes, kills: int) -> bytes:
+    def _exchange(self, packed: bytes, kills: int, heard: Heard | None) -> bytes:
         try:
             process = self._process or self._start(kills)
             assert process.stdin is not None
@@ -77,8 +81,7 @@ class Worker:
             process.stdin.write(LENGTH.pack(len(packed)))
             process.stdin.write(packed)
             process.stdin.flush()
-            head = process.stdout.read(LENGTH.size)
-            answer = process.stdout.read(LENGTH.unpack(head)[0]) if len(head) == LENGTH.size else b""
+            answer = _read_answer(process.stdout, heard)
         except (OSError, ValueError) as error:  # a pipe that is broken, or was closed by `kill`
             raise WorkerLostError(str(error)) from error
         if not answer:
@@ -100,8 +103,28 @@ class Worker:
         return process
 
 
+def _read_answer(answers: IO[bytes], heard: Heard | None) -> bytes:
+    """The next answer, after what is told of its progress; empty at the end of the pipe."""
+    while True:
+        head = answers.read(LENGTH.size)
+        size = LENGTH.unpack(head)[0] if len(head) == LENGTH.size else None
+        if size != 0:
+            return b"" if size is None else answers.read(size)
+        share = answers.read(SHARE.size)
+        if len(share) == SHARE.size and heard is not None:
+            heard(SHARE.unpack(share)[0])
+
+
 def _end(process: Popen[bytes]) -> None:
+    """Kill a process, and wait for its end in a thread: giving back its memory takes tens of milliseconds."""
     process.kill()
+    try:
+        threading.Thread(target=_reap, args=(process,), name="reaper", daemon=True).start()
+    except RuntimeError:  # this program ends
+        _reap(process)
+
+
+def _reap(process: Popen[bytes]) -> None:
     with suppress(subprocess.TimeoutExpired):
         process.wait(END_S)
     for pipe in (process.stdin, process.stdout):

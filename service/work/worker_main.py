@@ -11,10 +11,12 @@ import queue
 import signal
 import threading
 from contextlib import suppress
+from functools import partial
 from importlib import import_module
 from typing import BinaryIO, Final
 
-from service.work.codec import LENGTH, run_call
+from service.work.codec import LENGTH, SHARE, run_call
+from service.work.progress import tell_through
 
 NICE: Final = 10
 """How much lower than the service's its priority is."""
@@ -38,6 +40,7 @@ def main(memory_mb: int) -> None:
         import_module(name)
     answers.write(READY)
     answers.flush()
+    tell_through(partial(_write_share, answers))
     threading.Thread(target=_read, args=(calls, waiting), daemon=True).start()
     while True:
         answer = run_call(waiting.get())
@@ -61,6 +64,12 @@ def limit_memory(megabytes: int) -> None:
         resource.setrlimit(resource.RLIMIT_DATA, (size, size))
     except (ImportError, AttributeError, OSError, ValueError):  # not on this system
         return
+
+
+def _write_share(answers: BinaryIO, share: float) -> None:
+    """Tell the service how much of the call is done; in the thread of the call, so before its answer."""
+    answers.write(LENGTH.pack(0) + SHARE.pack(share))
+    answers.flush()
 
 
 def _read(calls: BinaryIO, waiting: queue.SimpleQueue[bytes]) -> None:

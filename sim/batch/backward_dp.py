@@ -56,6 +56,32 @@ FAR: Final = np.int32(1 << 29)
 
 
 @compiled
+def make_scratch(rows, columns, most_ticks, buffer):
+    """Room for decisions by cost of up to so many ticks, as `totals_of_way` takes it."""
+    words = -(-rows // (64 // columns))
+    return (
+        np.empty((BOARDS, words), np.uint64),
+        np.empty((most_ticks + 3, FIELDS, words), np.uint64),
+        np.empty((2 + buffer, words), np.uint64),
+        np.full((rows, columns + 2), FAR, np.int32),
+        np.full((rows, columns + 2), FAR, np.int32),
+        np.full(6, FAR, np.int32),
+    )
+
+
+@compiled
+def cheaper(scratch, stands, least, move):
+    """The lesser of a cost and the totals that were written, and its move; `stands`: only of staying."""
+    totals = scratch[5]
+    if stands:
+        totals[:STAY] = FAR
+    if totals.min() < least:
+        move = np.argmin(totals)
+        least = totals[move]
+    return least, move
+
+
+@compiled
 def around(board, wider, last, columns, left_edge, right_edge):
     """A board (words 0 to `last`) with the eight neighbours of its cells."""
     for w in range(last + 1):
@@ -125,15 +151,19 @@ def sweep(scratch, horizon, cell, last, weights, size):
     value[0, 1 : columns + 1] = 0
     for ahead in range(horizon - 1, -1, -1):
         first = max(0, start_row - ahead - 1)
+        # From rows further back the goal is not reached within the horizon: there it costs `FAR`.
+        furthest = min(start_row, horizon - ahead - 1)
         _charges(
-            entering, near, layers, ahead, last, weights, first, start_row, columns, left_edge, right_edge
+            entering, near, layers, ahead, last, weights, first, furthest, columns, left_edge, right_edge
         )
-        for row in range(first, start_row + 1):
+        if furthest < start_row:
+            entering[furthest + 1, 1 : columns + 1] = FAR
+        for row in range(first, furthest + 1):
             for column in range(1, columns + 1):
                 entering[row, column] = min(entering[row, column] + value[row, column], FAR)
         if ahead == 0:
             break
-        for row in range(max(1, start_row - ahead), start_row + 1):
+        for row in range(max(1, start_row - ahead), min(start_row, furthest + 1) + 1):
             w, shift = row // rows_per_word, np.uint64(row % rows_per_word * columns)
             met_left = layers[ahead, CAME_RIGHT, w] >> shift
             met_right = layers[ahead, CAME_LEFT, w] >> shift
@@ -181,14 +211,8 @@ def totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, lim
 @compiled
 def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, right_edge, count, moves, costs):
     """For every lane the move of least cost to the goal and that cost (−1: no way)."""
-    words = -(-rows // (64 // columns))
-    now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
-    near = np.empty((2 + charges[:, BUFFER].max(), words), np.uint64)
-    value = np.full((rows, columns + 2), FAR, np.int32)
-    entering = np.full((rows, columns + 2), FAR, np.int32)
-    totals = np.empty(6, np.int32)
-    scratch = now, layers, near, value, entering, totals
+    scratch = make_scratch(rows, columns, max_ticks(rows), charges[:, BUFFER].max())
+    now, layers = scratch[0], scratch[1]
     size = columns, left_edge, right_edge
     for lane in range(count):
         block, inner = state[lane // LANES], lane % LANES
@@ -217,11 +241,7 @@ def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, righ
             )
             if ticks >= 0:
                 totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept)
-                if stands:
-                    totals[:STAY] = FAR
-                if totals.min() < least:
-                    move = np.argmin(totals)
-                    least = totals[move]
+                least, move = cheaper(scratch, stands, least, move)
             elif least == FAR and not stands:
                 move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
             elif least == FAR and kept_clear > lasted:

@@ -42,11 +42,14 @@ from sim.batch.layout import (
 )
 from sim.batch.reachability import exact_moves
 from sim.batch.roads import begin_all, renew
+from sim.batch.sensing.beliefs import Beliefs
 from sim.batch.tick_kernel import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
 from sim.config import Config
 from sim.generation import GenerationError
+from sim.perceive.parameters import SUITES
 from sim.planner_names import Alias, canonical
-from sim.rules.compiled import COMPILED_VALUES
+from sim.rules.compiled import COMPILED_MOTION, SENSING_PLANNER
+from sim.sensor_names import DEFAULT_SENSOR
 from sim.state import SimState
 
 BatchPlanner = Literal["priority", "bfs", "weighted", "astar", "dijkstra", Alias]
@@ -64,6 +67,7 @@ _KERNELS: Final[dict[str, Any]] = {
 _NEXT, _THIS = 1, 2
 _FIELD: Final = np.uint64(2**16 - 1)
 _ALL: Final = np.uint64(2**64 - 1)
+_NO_QUEUE: Final[NDArray[np.uint64]] = np.zeros((0, 3), np.uint64)
 
 
 class Batch(Lanes):
@@ -73,7 +77,8 @@ class Batch(Lanes):
         """Every lane at its first episode's beginning. Raises `ValueError` unless all roads have one size.
 
         Raises `ValueError` as well for other dynamics than "grid", another behaviour than "sideways",
-        another sensor than "perfect", other weather than "clear" and another time of day than "day".
+        a sensor that a program registered, "perfect" beside sensors that err, and `after="restart"` with
+        these.
         Raises `GenerationError` where a road must be drivable and none is found. What a configuration says of
         its planner is left aside: `run` names one.
         """
@@ -85,6 +90,7 @@ class Batch(Lanes):
         if len(sizes) != 1:
             raise ValueError(f"a batch has roads of one size, not of {len(sizes)}")
         _check_rules(kinds)
+        sensed = _sensed(kinds, after)
         check_kinds(kinds)
         if any(config.layout for config in kinds):
             raise ValueError('roads of a layout: make them with Batch.of, and after="stop" or "restart"')
@@ -102,6 +108,8 @@ class Batch(Lanes):
         )
         if not found:
             raise GenerationError
+        blocks = self._state.shape[0]
+        self._beliefs = Beliefs(kinds, self.layout, len(self), blocks) if sensed else None
         self._remember_first()
 
     @classmethod
@@ -128,6 +136,8 @@ class Batch(Lanes):
         batch.configs = [run.config for run in runs]
         for lane, run in enumerate(runs):
             batch._place(lane, run)
+            if batch._beliefs is not None:
+                batch._beliefs.take(lane, run)
         batch._remember_first()
         return batch
 
@@ -140,7 +150,7 @@ class Batch(Lanes):
         if ticks < 0:
             raise ValueError(f"a batch runs 0 ticks or more, not {ticks}")
         _some(threads)
-        if planner == "priority":
+        if planner == "priority" and self._beliefs is None:
             self._advance(ticks, threads, asked=False)
             return
         for _ in range(ticks):
@@ -174,14 +184,19 @@ class Batch(Lanes):
         asked[: len(self)] = moves
         self._plane(ASKED)[...] = asked.reshape(-1, LANES)
         self._plane(IN_ROW)[...] = _ALL
+        self._sense(threads)
         self._advance(1, threads, asked=True)
+        if self._beliefs is not None:
+            self._beliefs.looked[:] = 0
 
     def moves(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.uint8]:
         """What a planner would do now in every lane (shape: lanes); waits where a result stands.
 
-        Raises `ValueError` for `priority`, which decides within the tick, for a planner that there is not,
-        and for less than 1 thread.
+        Raises `ValueError` for `priority`, which decides within the tick unless sensors err, for a planner
+        that there is not, and for less than 1 thread.
         """
+        if self._beliefs is not None:
+            return self._sensed_moves(planner, threads)
         return self._plan(planner, threads)[0]
 
     def least(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.int64]:
@@ -197,6 +212,7 @@ class Batch(Lanes):
         Nothing is changed: the moves are made in a copy. Lanes whose result stands keep it.
         """
         trial, found = self.copy(after="stop"), np.empty((len(self), 6), np.uint8)
+        trial._beliefs = None  # what is believed has no part in where moves lead
         for move in range(6):
             trial._put(self)
             trial.step(np.full(len(self), move, np.uint8), threads=threads)
@@ -211,20 +227,32 @@ class Batch(Lanes):
         `ConfigError` for a seed that is none.
         """
         chosen = np.where(lanes, _NEXT, 0).astype(np.uint8)
+        if self._beliefs is not None:
+            self._beliefs.looked[lanes] = 0
         for lane, seed in enumerate(seeds or ()):
             if seed is not None and lanes[lane]:
                 self.configs[lane] = self.configs[lane].with_parts(seed=seed)
                 self._wholes[lane, SEED], self._wholes[lane, EPISODE] = seed, 1
                 chosen[lane] = _THIS
+                if self._beliefs is not None:
+                    self._beliefs.forget(lane)
         layout, tables = self.layout, (self._wholes, self._shares)
         if not renew(self._state, self._lanes, chosen, layout.columns, layout.rows, *tables):
             raise GenerationError
+
+    def observe(self) -> NDArray[np.uint8]:
+        """What is seen of every lane's cells (shape: lanes, 7, rows, columns; `sim.perceive.observe`)."""
+        if self._beliefs is None:
+            return super().observe()
+        self._sense(1, ended=True)
+        return self._observed(self._beliefs.believed)
 
     def copy(self, *, after: After | None = None) -> Batch:
         """The same lanes at the same moment, to go on by themselves; what follows an end may differ."""
         twin = copy(self)
         twin.configs = list(self.configs)
         twin.after = after or self.after
+        twin._beliefs = None if self._beliefs is None else self._beliefs.copy()
         for name in STATE:
             setattr(twin, name, getattr(self, name).copy())
         if twin.after == self.after == "restart":
@@ -235,9 +263,29 @@ class Batch(Lanes):
 
     # Within
 
+    def _sense(self, threads: int, *, ended: bool = False) -> None:
+        """Look where it has not been looked in this tick; `ended`: also where a result stands."""
+        beliefs = self._beliefs
+        if beliefs is not None:
+            given = self._state, self._lanes, self._wholes, self._shares
+            self._on_threads(threads, lambda part: beliefs.sense(*given, part, ended=ended))
+
+    def _sensed_moves(self, planner: str, threads: int) -> NDArray[np.uint8]:
+        """The moves of the rule planner by what is believed."""
+        beliefs = self._beliefs
+        assert beliefs is not None
+        if _known(planner) != SENSING_PLANNER:
+            raise ValueError(f"with a sensor that errs a batch is driven by priority, not by {planner!r}")
+        _some(threads)
+        self._sense(threads)
+        moves = np.empty(len(self), np.uint8)
+        given = self._state, self._lanes, self._shares
+        self._on_threads(threads, lambda part: beliefs.rule_moves(*given, part, moves))
+        return moves
+
     def _advance(self, ticks: int, threads: int, *, asked: bool) -> None:
         kernel = ticks_kernel(
-            walking=bool(self._plane_of_boards(WALKERS).any() or (self._wholes[:, PEDESTRIANS] > 0).any()),
+            walking=self._walking(),
             courteous=self._by_chance,
             bodily=self._bodily,
             watching=bool(self._plane(WATCHING).any()) and not asked,
@@ -251,6 +299,10 @@ class Batch(Lanes):
             self._ticks += now
             self._empty_counters()
             ticks -= now
+
+    def _walking(self) -> bool:
+        """Whether there are pedestrians, or will be."""
+        return bool(self._plane_of_boards(WALKERS).any() or (self._wholes[:, PEDESTRIANS] > 0).any())
 
     def _plan(self, planner: BatchPlanner, threads: int) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
         planner = _known(planner)
@@ -294,6 +346,7 @@ class Batch(Lanes):
             self._shares[lanes],
             *self._geometry(),
             ticks,
+            _NO_QUEUE,
         )
 
     def _on_threads(self, threads: int, work: Callable[[slice], None]) -> None:
@@ -325,12 +378,30 @@ class Batch(Lanes):
 
 
 def _check_rules(configs: Sequence[Config]) -> None:
-    """Raises `ValueError` for a motion, a behaviour, a sensor or a condition that is not compiled."""
-    for name, compiled in COMPILED_VALUES.items():
+    """Raises `ValueError` for a motion or a behaviour that is not compiled."""
+    for name, compiled in COMPILED_MOTION.items():
         for value in sorted({getattr(config, name) for config in configs} - {compiled}):
             raise ValueError(
                 f"a batch has {name} {compiled!r} only, not {value!r}; run such roads one by one"
             )
+    if any(config.sensor_latency for config in configs):
+        raise ValueError("in a batch no sensor is late; run roads with a sensor_latency one by one")
+    if any(config.slips for config in configs):
+        raise ValueError("in a batch no move slips; run roads with a slip_probability on snow one by one")
+
+
+def _sensed(configs: Sequence[Config], after: After) -> bool:
+    """Whether sensors err. Raises `ValueError` for what a batch does not do with such."""
+    sensors = {config.sensor for config in configs}
+    if sensors == {DEFAULT_SENSOR}:
+        return False
+    for sensor in sorted(sensors - {DEFAULT_SENSOR} - set(SUITES)):
+        raise ValueError(f"a batch has no sensor {sensor!r} of a program; run such roads one by one")
+    if DEFAULT_SENSOR in sensors:
+        raise ValueError(f"a batch has no sensor {DEFAULT_SENSOR!r} beside others; run each in its own batch")
+    if after == "restart":
+        raise ValueError('with a sensor that errs a batch is made with after="next" or "stop"')
+    return True
 
 
 def _known(planner: str) -> BatchPlanner:

@@ -57,6 +57,7 @@ from sim.batch.layout import (
     Words,
 )
 from sim.batch.observe import observe
+from sim.batch.sensing.beliefs import Beliefs
 from sim.config import COUNTS, Config
 from sim.generation import assign_ids
 from sim.randomness import Stream
@@ -104,6 +105,7 @@ class SeededConfigs(MutableSequence[Config]):
         self._config = config
         self.seeds = seeds
         self._changed: dict[int, Config] = {}
+        self._first = replace(config, seed=int(seeds[0])) if len(seeds) else config
 
     def __len__(self) -> int:
         return len(self.seeds)
@@ -113,6 +115,8 @@ class SeededConfigs(MutableSequence[Config]):
             return [self[each] for each in range(*index.indices(len(self)))]
         if index in self._changed:
             return self._changed[index]
+        if index == 0:  # stands for all of them where a batch is made
+            return self._first
         return replace(self._config, seed=int(self.seeds[index]))
 
     def __setitem__(self, index: Any, config: Any) -> None:
@@ -136,6 +140,8 @@ class Lanes:
         )
         self.layout = Layout.of(configs[0].columns, configs[0].rows)
         self.after: After = after
+        self._beliefs: Beliefs | None = None
+        """of sensors that err"""
         count = len(self.configs)
         blocks = -(-count // LANES)
         self._state: Words = np.zeros((blocks, self.layout.words * PLANES * LANES), np.uint64)
@@ -160,7 +166,7 @@ class Lanes:
         )
         self._shares = np.array(
             [
-                (config.spawn_probability, config.pothole_probability, config.courtesy, config.attentive)
+                (config.vehicle_probability, config.pothole_probability, config.courtesy, config.attentive)
                 for config in padded
             ]
         )
@@ -190,7 +196,8 @@ class Lanes:
         """
         if self.after == "restart":
             raise ValueError('a batch made with after="restart" cannot be saved')
-        return {name[1:]: getattr(self, name).copy() for name in STATE}
+        found = {name[1:]: getattr(self, name).copy() for name in STATE}
+        return found if self._beliefs is None else found | self._beliefs.saved()
 
     def restore(self, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Be at the moment that was saved, of as many lanes of the same configurations, seeds aside.
@@ -204,6 +211,8 @@ class Lanes:
             raise ValueError("these are not the arrays of a batch of this size")
         for name in STATE:
             getattr(self, name)[...] = arrays[name[1:]]
+        if self._beliefs is not None:
+            self._beliefs.put(arrays)
         seeds = self._wholes[: len(self), SEED].tolist()
         self.configs = [
             config.with_parts(seed=seed) for config, seed in zip(self.configs, seeds, strict=True)
@@ -236,9 +245,12 @@ class Lanes:
 
     def observe(self) -> NDArray[np.uint8]:
         """Every lane's cells (shape: lanes, 7, rows, columns; planes as in `sim.perceive.observe`)."""
+        return self._observed(self._state)
+
+    def _observed(self, state: Words) -> NDArray[np.uint8]:
         columns, rows = self.layout.columns, self.layout.rows
         out = np.empty((len(self), 7, rows, columns), np.uint8)
-        observe(self._state, self._lanes, len(self), columns, rows, out)
+        observe(state, self._lanes, len(self), columns, rows, out)
         return out
 
     def totals(self) -> Totals:

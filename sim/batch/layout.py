@@ -75,6 +75,8 @@ SPAWN_PROBABILITY, POTHOLE_PROBABILITY, COURTESY, ATTENTIVE = range(4)
 """Columns of a batch's table of probabilities (float64)."""
 VEHICLES, PEDESTRIANS, BARRIERS, POTHOLES, SEED, EPISODE, HOLD_TICKS, SOLVABLE = range(8)
 """Columns of its table of whole numbers (int64); a number of −1 means: drawn row by row."""
+QUEUE_SEED, QUEUE_OUTCOME, QUEUE_MOVES = range(3)
+"""Columns of the queue of a relay (uint64): what episodes are drawn from, how they ended, packed counters."""
 
 
 @dataclass(frozen=True, slots=True)

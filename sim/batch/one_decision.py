@@ -18,24 +18,27 @@ from typing import Final
 
 import numpy as np
 
-from sim.batch.backward_dp import BUFFER, FAR, TICK, around, cost_of_way, sweep, totals_of_way
-from sim.batch.compiled import free_steps, max_ticks
+from sim.batch.backward_dp import (
+    BUFFER,
+    FAR,
+    TICK,
+    around,
+    cheaper,
+    cost_of_way,
+    make_scratch,
+    sweep,
+    totals_of_way,
+)
+from sim.batch.compiled import max_ticks
 from sim.batch.reachability import (
     ALL_FIXED,
-    BLOCKED,
-    BOARDS,
-    CAME_LEFT,
-    CAME_RIGHT,
-    CUT_LEFT,
-    CUT_RIGHT,
-    FIELDS,
     REACHED,
     STAY,
     VEHICLE,
     expand,
+    first_step,
     keep_shortest,
     longest_survival,
-    one_row_on,
     roll,
     search,
     someone_brakes,
@@ -57,40 +60,10 @@ def _take(now, seen, cell, columns):
 
 
 @compiled
-def _first_step(now, layers, move, last, columns, left_edge, right_edge):
-    """Put where a move leads now into layer 1; whether it meets nothing."""
-    vehicle = now[VEHICLE]
-    alive = _ZERO
-    for w in range(last + 1):
-        steps = free_steps(
-            vehicle[w],
-            one_row_on(vehicle, w, last, columns),
-            layers[0, BLOCKED, w],
-            layers[0, CAME_RIGHT, w],
-            layers[0, CAME_LEFT, w],
-            layers[0, CUT_LEFT, w],
-            layers[0, CUT_RIGHT, w],
-            left_edge,
-            right_edge,
-        )
-        there = (
-            steps.forward,
-            steps.left,
-            steps.right,
-            steps.forward_left,
-            steps.forward_right,
-            steps.stay,
-        )[move]
-        layers[1, REACHED, w] = there
-        alive |= there
-    return alive != _ZERO
-
-
-@compiled
 def _arrives(now, layers, move, rolled, limit, last, episode_tick, columns, left_edge, right_edge, swept):
     """Ticks of the quickest way that begins with a move (−1: none), and the layers rolled by then."""
     goal = (_ONE << np.uint64(columns - 1) << _ONE) - _ONE
-    if not _first_step(now, layers, move, last, columns, left_edge, right_edge):
+    if not first_step(now, layers, move, last, columns, left_edge, right_edge):
         return -1, rolled
     if layers[1, REACHED, 0] & goal:
         return 1, rolled
@@ -164,14 +137,8 @@ def made_moves(
 
     Each is weighed by its own row of `weights`.
     """
-    words = seen.shape[2]
-    now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
-    near = np.empty((2 + weights[:, BUFFER].max(), words), np.uint64)
-    value = np.full((rows, columns + 2), FAR, np.int32)
-    entering = np.full((rows, columns + 2), FAR, np.int32)
-    totals = np.full(6, FAR, np.int32)
-    scratch = now, layers, near, value, entering, totals
+    scratch = make_scratch(rows, columns, max_ticks(rows), weights[:, BUFFER].max())
+    now, layers = scratch[0], scratch[1]
     size = columns, left_edge, right_edge
     row = cell // columns
     for number in range(seen.shape[0]):
@@ -196,11 +163,7 @@ def made_moves(
                     size,
                     swept,
                 )
-                if stands:
-                    totals[:STAY] = FAR
-                if totals.min() < least:
-                    move = np.argmin(totals)
-                    least = totals[move]
+                least, move = cheaper(scratch, stands, least, move)
             elif least == FAR and not stands:
                 move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
             elif least == FAR and kept_clear > lasted:
@@ -216,14 +179,8 @@ def decided_totals(
 
     Returns −1 where a way leads to the goal.
     """
-    words = seen.shape[1]
-    now = np.empty((BOARDS, words), np.uint64)
-    layers = np.empty((max_ticks(rows) + 3, FIELDS, words), np.uint64)
-    near = np.empty((2 + weights[BUFFER], words), np.uint64)
-    value = np.full((rows, columns + 2), FAR, np.int32)
-    entering = np.full((rows, columns + 2), FAR, np.int32)
-    totals = np.full(6, FAR, np.int32)
-    scratch = now, layers, near, value, entering, totals
+    scratch = make_scratch(rows, columns, max_ticks(rows), weights[BUFFER])
+    now, layers, totals = scratch[0], scratch[1], scratch[5]
     size = columns, left_edge, right_edge
     row = cell // columns
     out[:] = -1

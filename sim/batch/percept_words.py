@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from sim.batch.layout import Layout
 from sim.batch.one_decision import decided_totals, made_moves
 from sim.batch.reachability import VEHICLE
+from sim.batch.row_words import make_ready as make_rows_ready
 from sim.compiled_files import ready_mark
 from sim.forecast import Forecast
 from sim.perceive import Percept
@@ -35,6 +37,7 @@ def make_ready() -> None:
     place = (1, 1, 2, _ONE, _ONE, 0, 2, _ALL, 0)
     decided_totals(seen, *place, charges, out)
     made_moves(seen[None], *place, charges[None], np.empty(1, np.uint8))
+    make_rows_ready()
     mark = ready_mark(COMPILED)
     if mark is not None:
         with suppress(OSError):
@@ -121,16 +124,23 @@ def _words(percept: Percept, unlike: Unlike, last: int) -> bytes:
     return b"".join([(board >> word * size & mask).to_bytes(8, "little") for board in seen for word in words])
 
 
+@lru_cache(maxsize=64)
+def _edges(columns: int, rows: int) -> tuple[np.uint64, np.uint64]:
+    """The first and the last column of a word."""
+    layout = Layout.of(columns, rows)
+    return np.uint64(layout.left_edge), np.uint64(layout.right_edge)
+
+
 def _place(percept: Percept, limit: int) -> tuple[object, ...]:
     """Where and when it is decided, as the kernels want it."""
     road = percept.road
-    layout = Layout.of(road.columns, road.rows)
+    left_edge, right_edge = _edges(road.columns, road.rows)
     return (
         percept.ego,
         road.columns,
         road.rows,
-        np.uint64(layout.left_edge),
-        np.uint64(layout.right_edge),
+        left_edge,
+        right_edge,
         percept.episode_tick,
         limit,
         _ALL if percept.swept else np.uint64(0),

@@ -44,6 +44,7 @@ from sim.batch.compiled import (
     spread_back,
     steps_left,
 )
+from sim.batch.drawn_reactions import drawn_beside
 from sim.batch.layout import (
     ATTENTIVE,
     ATTENTIVE_KEY,
@@ -64,7 +65,7 @@ from sim.batch.layout import (
     WALKERS,
     WORD,
 )
-from sim.compilation import compiled, fraction, word_at
+from sim.compilation import compiled
 from sim.rules.traffic import Motion
 
 _ZERO: Final = np.uint64(0)
@@ -78,17 +79,6 @@ who brakes in the first tick, and the ego."""
 BLOCKED, CAME_RIGHT, CAME_LEFT, CUT_LEFT, CUT_RIGHT, MOVERS, REACHED, NEEDED = range(8)
 FIELDS: Final = 8
 """Planes of a roll-out (shape: ticks, 8, words); of tick k: after k + 1 ticks, the last two after k."""
-
-
-@compiled
-def _drawn(key, tick, cell, bit, last_bit, share):
-    """The cells beside the ego, as bits of its row, whose movers react to it in this tick by a draw."""
-    draws, beside = word_at(key, tick), _ZERO
-    if fraction(word_at(draws, cell - 1)) < share:
-        beside |= (bit & ~_ONE) >> _ONE
-    if fraction(word_at(draws, cell + 1)) < share:
-        beside |= (bit & ~last_bit) << _ONE
-    return beside
 
 
 @compiled
@@ -115,12 +105,10 @@ def prepare(now, block, lane_block, lane, columns, rows, shares, behind):
     cell = np.int64(lane_block[CELL * LANES + lane])
     tick = np.int64(lane_block[EPISODE_TICK * LANES + lane])
     last_bit = _ONE << np.uint64(columns - 1)
-    if shares[COURTESY] > 0.0:
-        key = lane_block[COURTESY_KEY * LANES + lane]
-        now[YIELDS, word] = _drawn(key, tick, cell, bit, last_bit, shares[COURTESY]) << shift
-    if shares[ATTENTIVE] > 0.0:
-        key = lane_block[ATTENTIVE_KEY * LANES + lane]
-        now[BRAKES, word] = _drawn(key, tick, cell, bit, last_bit, shares[ATTENTIVE]) << shift
+    key = lane_block[COURTESY_KEY * LANES + lane]
+    now[YIELDS, word] = drawn_beside(key, tick, cell, bit, last_bit, shares[COURTESY]) << shift
+    key = lane_block[ATTENTIVE_KEY * LANES + lane]
+    now[BRAKES, word] = drawn_beside(key, tick, cell, bit, last_bit, shares[ATTENTIVE]) << shift
     return last
 
 
@@ -328,37 +316,44 @@ def step_from(layers, ahead, cell, columns):
 
 
 @compiled
+def first_step(now, layers, move, last, columns, left_edge, right_edge):
+    """Put where a move leads now into layer 1; whether it meets nothing."""
+    vehicle = now[VEHICLE]
+    alive = _ZERO
+    for w in range(last + 1):
+        steps = free_steps(
+            vehicle[w],
+            one_row_on(vehicle, w, last, columns),
+            layers[0, BLOCKED, w],
+            layers[0, CAME_RIGHT, w],
+            layers[0, CAME_LEFT, w],
+            layers[0, CUT_LEFT, w],
+            layers[0, CUT_RIGHT, w],
+            left_edge,
+            right_edge,
+        )
+        there = (
+            steps.forward,
+            steps.left,
+            steps.right,
+            steps.forward_left,
+            steps.forward_right,
+            steps.stay,
+        )[move]
+        layers[1, REACHED, w] = there
+        alive |= there
+    return alive != _ZERO
+
+
+@compiled
 def longest_survival(now, layers, rolled, last, columns, left_edge, right_edge):
     """The move after which one can keep clear longest within the layers rolled, and for how many ticks.
 
     Waiting and 0 if none is free.
     """
-    vehicle = now[VEHICLE]
     best, best_ticks = STAY, 0
     for move in range(6):
-        alive = False
-        for w in range(last + 1):
-            steps = free_steps(
-                vehicle[w],
-                one_row_on(vehicle, w, last, columns),
-                layers[0, BLOCKED, w],
-                layers[0, CAME_RIGHT, w],
-                layers[0, CAME_LEFT, w],
-                layers[0, CUT_LEFT, w],
-                layers[0, CUT_RIGHT, w],
-                left_edge,
-                right_edge,
-            )
-            target = (
-                steps.forward,
-                steps.left,
-                steps.right,
-                steps.forward_left,
-                steps.forward_right,
-                steps.stay,
-            )[move]
-            layers[1, REACHED, w] = target
-            alive |= target != _ZERO
+        alive = first_step(now, layers, move, last, columns, left_edge, right_edge)
         ticks = 1 if alive else 0
         while alive and ticks < rolled:
             alive = expand(layers, ticks, 0, last, columns, left_edge, right_edge)

@@ -15,6 +15,7 @@ from typing import Final
 
 import numpy as np
 
+from sim.batch.compiled import first_bit
 from sim.batch.layout import (
     ATTENTIVE_KEY,
     BARRIERS,
@@ -65,25 +66,33 @@ _ALL: Final = np.uint64(2**64 - 1)
 @compiled
 def _one_a_row(chosen, taken, columns, probability, key):
     """One thing in each row with that probability, in a free cell of the row."""
+    whole = ((_ONE << np.uint64(columns - 1)) << _ONE) - _ONE
+    # Without branches: the words of several rows are computed at once.
     for row in range(1, len(taken) - 1):
         draws = word_at(key, row)
-        if fraction(word_at(draws, 0)) < probability:
-            free = 0
-            for column in range(columns):
-                free += 1 - int(taken[row] >> np.uint64(column) & _ONE)
-            if free:
-                nth = np.int64(scaled(word_at(draws, 1), np.uint64(free)))
-                for column in range(columns):
-                    if not taken[row] >> np.uint64(column) & _ONE:
-                        if nth == 0:
-                            chosen[row] |= _ONE << np.uint64(column)
-                            break
-                        nth -= 1
+        there = fraction(word_at(draws, 0)) < probability
+        first = _ONE << scaled(word_at(draws, 1), np.uint64(columns))
+        chosen[row] = first if there else _ZERO
+    for row in range(1, len(taken) - 1):
+        if chosen[row] and taken[row]:
+            chosen[row] = _ZERO
+            free = ~taken[row] & whole
+            count, rest = columns, taken[row]
+            while rest:
+                rest &= rest - _ONE
+                count -= 1
+            if count:
+                nth = scaled(word_at(word_at(key, row), 1), np.uint64(count))
+                for _ in range(nth):
+                    free &= free - _ONE
+                chosen[row] = free & ~(free - _ONE)
 
 
 @compiled
 def _exactly(chosen, taken, columns, count, key):
     """The free cells of lowest random rank, `count` of them."""
+    if count <= 0:
+        return
     rows = len(taken)
     ranks = np.empty(rows * columns, np.uint64)
     free = 0
@@ -92,7 +101,7 @@ def _exactly(chosen, taken, columns, count, key):
             if not taken[row] >> np.uint64(column) & _ONE:
                 ranks[free] = word_at(key, row * columns + column)
                 free += 1
-    if count <= 0 or free == 0:
+    if free == 0:
         return
     count = min(count, free)
     last = np.sort(ranks[:free])[count - 1]
@@ -105,15 +114,36 @@ def _exactly(chosen, taken, columns, count, key):
 
 
 @compiled
-def _furnish(taken, columns, count, probability, key):
-    chosen = np.zeros(len(taken), np.uint64)
+def _furnish(chosen, taken, columns, count, probability, key):
+    """Put things of a kind on the free cells: into `chosen`, which is empty, and into `taken`."""
     if count < 0:
         _one_a_row(chosen, taken, columns, probability, key)
     else:
         _exactly(chosen, taken, columns, count, key)
-    for row in range(len(taken)):
-        taken[row] |= chosen[row]
-    return chosen
+    if count:
+        for row in range(len(taken)):
+            taken[row] |= chosen[row]
+
+
+@compiled
+def _turn(rightward, vehicles, walkers, columns, heading):
+    """Choose which movers head to the right."""
+    several = _ZERO
+    # Without branches as above: in most rows there is one mover at most, the first.
+    for row in range(len(rightward)):
+        movers = vehicles[row] | walkers[row]
+        others = movers & (movers - _ONE)
+        right = scaled(word_at(heading, row * columns + first_bit(movers)), np.uint64(2))
+        rightward[row] = movers ^ others if right else _ZERO
+        several |= others
+    for row in range(len(rightward) if several else 0):
+        rest = vehicles[row] | walkers[row]
+        rest &= rest - _ONE
+        while rest:
+            column = first_bit(rest)
+            rest &= rest - _ONE
+            if scaled(word_at(heading, row * columns + column), np.uint64(2)):
+                rightward[row] |= _ONE << np.uint64(column)
 
 
 @compiled
@@ -149,26 +179,18 @@ def _draw(block, lane_block, lane, columns, rows, wholes, shares, attempt):
     """Write a road into one lane of a block and put the ego at its start."""
     episode = wholes[EPISODE]
     base = mix(np.uint64(wholes[SEED]) + _GOLDEN)
-    taken = np.zeros(rows, np.uint64)
-    vehicles = _furnish(
-        taken,
-        columns,
-        wholes[VEHICLES],
-        shares[SPAWN_PROBABILITY],
-        _stream(base, _VEHICLE_KEY, episode, attempt),
-    )
-    walkers = _furnish(
-        taken, columns, wholes[PEDESTRIANS], 0.0, _stream(base, _PEDESTRIAN_KEY, episode, attempt)
-    )
-    barriers = _furnish(taken, columns, wholes[BARRIERS], 0.0, _stream(base, _BARRIER_KEY, episode, attempt))
-    potholes = _furnish(
-        taken,
-        columns,
-        wholes[POTHOLES],
-        shares[POTHOLE_PROBABILITY],
-        _stream(base, _POTHOLE_KEY, episode, attempt),
-    )
+    # One array for all kinds: making six of them would take as long as the rest.
+    taken, vehicles, walkers, barriers, potholes, rightward = np.zeros((6, rows), np.uint64)
+    key = _stream(base, _VEHICLE_KEY, episode, attempt)
+    _furnish(vehicles, taken, columns, wholes[VEHICLES], shares[SPAWN_PROBABILITY], key)
+    key = _stream(base, _PEDESTRIAN_KEY, episode, attempt)
+    _furnish(walkers, taken, columns, wholes[PEDESTRIANS], 0.0, key)
+    key = _stream(base, _BARRIER_KEY, episode, attempt)
+    _furnish(barriers, taken, columns, wholes[BARRIERS], 0.0, key)
+    key = _stream(base, _POTHOLE_KEY, episode, attempt)
+    _furnish(potholes, taken, columns, wholes[POTHOLES], shares[POTHOLE_PROBABILITY], key)
     heading = _stream(base, _HEADING_KEY, episode, attempt)
+    _turn(rightward, vehicles, walkers, columns, heading)
     rows_per_word = 64 // columns
     for word in range(-(-rows // rows_per_word)):
         right = left = fixed = holes = walking = _ZERO
@@ -176,13 +198,8 @@ def _draw(block, lane_block, lane, columns, rows, wholes, shares, attempt):
             row = word * rows_per_word + inner
             shift = np.uint64(inner * columns)
             movers = vehicles[row] | walkers[row]
-            rightward = _ZERO
-            for column in range(columns):
-                bit = _ONE << np.uint64(column)
-                if movers & bit and scaled(word_at(heading, row * columns + column), np.uint64(2)):
-                    rightward |= bit
-            right |= rightward << shift
-            left |= (movers & ~rightward) << shift
+            right |= rightward[row] << shift
+            left |= (movers & ~rightward[row]) << shift
             fixed |= (barriers[row] | potholes[row]) << shift
             holes |= potholes[row] << shift
             walking |= walkers[row] << shift

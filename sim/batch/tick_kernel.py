@@ -11,7 +11,8 @@ Array arguments of the kernel (lane planes are read at `PLANE * LANES + lane`, `
   `boards` is one block of them;
 - `lanes`, `first_lanes` (blocks, `LANE_PLANES` · `LANES`; uint64): what a world has once; `v` is one block;
 - `wholes` (lanes, 8; int64), `shares` (lanes, 4; float64): numbers and probabilities, by column;
-- `left_edge`, `right_edge` (uint64): the first and the last column of a word; `ticks`: how many are run.
+- `left_edge`, `right_edge` (uint64): the first and the last column of a word; `ticks`: how many are run;
+- `queue` (episodes, 3; uint64): the episodes of a relay, by the columns that `sim.batch.layout` names.
 """
 
 from __future__ import annotations
@@ -65,7 +66,11 @@ from sim.batch.layout import (
     OUTCOME,
     OWN_ROW,
     PLANES,
+    QUEUE_MOVES,
+    QUEUE_OUTCOME,
+    QUEUE_SEED,
     RIGHT,
+    SEED,
     SHIFT,
     SINCE_END,
     SWEPT,
@@ -75,7 +80,7 @@ from sim.batch.layout import (
     WORD,
     YIELDING,
 )
-from sim.batch.roads import begin_next
+from sim.batch.roads import begin, begin_next
 from sim.compilation import compiled, fraction, word_at
 from sim.rules.mover_boards import PERIODS
 from sim.rules.traffic import Motion
@@ -153,6 +158,25 @@ def _repeats(boards, v, i, columns, walking):
     return (differ >> shift | differ_ahead >> shift_ahead) & row == _ZERO
 
 
+@compiled
+def _all_ended(v):
+    """Whether no lane of a block is running."""
+    running = 0
+    for i in range(LANES):
+        running += v[OUTCOME * LANES + i] == RUNNING
+    return running == 0
+
+
+@compiled
+def _let_pass(v, ticks, watching):
+    """So many ticks of lanes that have all ended, and for which nothing begins: only clocks go on."""
+    for i in range(LANES):
+        v[EPISODE_TICK * LANES + i] += ticks
+        v[SINCE_END * LANES + i] += ticks
+        if watching:
+            v[IN_ROW * LANES + i] += ticks
+
+
 @cache
 def ticks_kernel(
     *,
@@ -163,6 +187,7 @@ def ticks_kernel(
     held: bool,
     asked: bool,
     renewed: bool,
+    relayed: bool = False,
 ) -> Any:
     """The compiled loop for batches with or without any of these.
 
@@ -170,11 +195,23 @@ def ticks_kernel(
     movers who brake; which, says each lane. `watching`: lanes that are STUCK when a situation repeats.
     `held`: an ended lane stands for its hold ticks, then (if `renewed`) its next road begins; otherwise
     an ended lane starts its first road again in the same tick. `asked`: moves are handed in; otherwise the
-    rule planner decides.
+    rule planner decides. `relayed`: an ended lane begins the next episode of the queue, until all have ended;
+    the lanes of the one block have begun its first episodes.
     """
 
     def run(
-        state, first_state, lanes, first_lanes, wholes, shares, columns, rows, left_edge, right_edge, ticks
+        state,
+        first_state,
+        lanes,
+        first_lanes,
+        wholes,
+        shares,
+        columns,
+        rows,
+        left_edge,
+        right_edge,
+        ticks,
+        queue,
     ):
         rows_per_word = 64 // columns
         words = -(-rows // rows_per_word)
@@ -186,9 +223,16 @@ def ticks_kernel(
         sideways = _ONE << np.uint64(MOVE_FIELD)
         diagonal = _ONE << np.uint64(2 * MOVE_FIELD)
         waited = _ONE << np.uint64(3 * MOVE_FIELD)
+        # Of a relay: the episode of each lane, the next one to begin, and how many have not ended.
+        episode, following, left_over = np.arange(LANES), LANES, len(queue)
         for block in range(state.shape[0]):
             boards, v = state[block], lanes[block]
-            for _ in range(ticks):
+            for done in range(ticks):
+                if relayed and left_over == 0:
+                    break
+                if held and not renewed and _all_ended(v):
+                    _let_pass(v, np.uint64(ticks - done), watching)
+                    break
                 for i in range(LANES):
                     v[OWN_ROW * LANES + i] = _ZERO
                     v[NEXT_ROW * LANES + i] = _ZERO
@@ -408,6 +452,19 @@ def ticks_kernel(
                         lane = block * LANES + i
                         if renewed and v[SINCE_END * LANES + i] == np.uint64(wholes[lane, HOLD_TICKS]):
                             begin_next(boards, v, i, columns, rows, wholes[lane], shares[lane])
+                    elif relayed:
+                        if episode[i] < len(queue):
+                            queue[episode[i], QUEUE_OUTCOME] = v[OUTCOME * LANES + i]
+                            queue[episode[i], QUEUE_MOVES] = v[MOVES * LANES + i]
+                            left_over -= 1
+                        episode[i] = following  # past the end: the last road is driven again, for nobody
+                        if following < len(queue):
+                            wholes[i, SEED] = np.int64(queue[following, QUEUE_SEED])
+                            following += 1
+                        v[MOVES * LANES + i] = _ZERO
+                        if not begin(boards, v, i, columns, rows, wholes[i], shares[i]):
+                            queue[episode[i], QUEUE_OUTCOME] = _ALL
+                            return
                     else:
                         first, u = first_state[block], first_lanes[block]
                         v[WORD * LANES + i] = u[WORD * LANES + i]

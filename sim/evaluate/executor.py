@@ -1,5 +1,7 @@
 """Executors of evaluations: where the parts are run. Here: this process, or several on this machine.
 
+`sim.evaluate.ray_executor` runs them on a cluster.
+
 An executor runs pieces of work in any order and yields each answer with its piece. Processes are
 started fresh (`spawn`), run at low priority, and end with the process that started them.
 """
@@ -30,6 +32,12 @@ Work = Callable[[Piece, Callable[[], bool]], Answer]
 """Takes a piece and what tells whether it is cancelled; a function of a module, so that processes find it."""
 
 
+def weight_of(piece: object) -> int:
+    """How much of the work a piece is, in episodes or worlds; 1 where it does not say so."""
+    weight = getattr(piece, "weight", 1)
+    return weight if isinstance(weight, int) else 1
+
+
 class CancelledError(Exception):
     """The work was cancelled while a piece was run."""
 
@@ -48,6 +56,34 @@ class Executor(Protocol):
 
     def close(self) -> None:
         """Give back what it holds."""
+
+
+def run_all(
+    executor: Executor | None,
+    work: Work[Piece, bytes],
+    next_pieces: Callable[[], Sequence[Piece]],
+    keep: Callable[[Piece, bytes], None],
+    cancelled: Event,
+    progress: Callable[[int], None] = lambda _: None,
+) -> bool:
+    """Runs pieces until `next_pieces` has no more; False where it was cancelled.
+
+    `keep` is given what each came to, before more pieces are asked for; `progress` is told the weight of
+    those done. Without an executor, this process runs them.
+    """
+    executor, done = executor or InProcess(), 0
+    while left := next_pieces():
+        answered = 0
+        for piece, body in executor.run(work, left, cancelled):
+            keep(piece, body)
+            answered += 1
+            done += weight_of(piece)
+            progress(done)
+        if cancelled.is_set():
+            return False
+        if answered != len(left):
+            raise RuntimeError("the executor has left out pieces of work")
+    return not cancelled.is_set()
 
 
 class InProcess:

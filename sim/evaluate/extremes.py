@@ -27,7 +27,9 @@ def extremes(spec: Evaluation, planner: str, rows: Rows) -> dict[int, tuple[str,
         longest = columns["ticks"][arrived].max()
         slowest = arrived[columns["ticks"][arrived] == longest][0]
         found.setdefault(int(slowest), []).append("slowest")
-    for name, index in (*_closest(rows, planner), *_disagreements(spec, planner, rows)):
+    # Of a cell of a success map only how it ended is told, so nothing else has an episode behind it.
+    others = (*_closest(rows, planner), *_disagreements(spec, planner, rows)) if spec.axes is None else ()
+    for name, index in others:
         found.setdefault(index, []).append(name)
     return {index: tuple(names) for index, names in found.items()}
 

@@ -20,6 +20,8 @@ from sim.types import Move, Outcome, kind_of
 
 MOST: Final = 30
 """Failed episodes of a planner that are looked at, the first ones."""
+MOST_IN_A_CELL: Final = 3
+"""The same for each cell of a success map."""
 BEFORE: Final = 4
 """Ticks before the end of a crash or an arrival at which it is worth looking."""
 _LAST: Final = 8
@@ -64,7 +66,7 @@ def examples(spec: Evaluation, rows: Rows, cancelled: Callable[[], bool] = lambd
     found = []
     for planner in spec.planners:
         shown = extremes(spec, planner, rows)
-        failed = _failures(rows[planner]["outcome"], solvable)
+        failed = _failures(rows[planner]["outcome"], solvable, most_of(spec))
         for index in dict.fromkeys((*failed, *shown)):
             if cancelled():
                 raise CancelledError
@@ -72,26 +74,34 @@ def examples(spec: Evaluation, rows: Rows, cancelled: Callable[[], bool] = lambd
     return found
 
 
-def _failures(outcome: Any, solvable: Any) -> Iterator[int]:
+def most_of(spec: Evaluation) -> int:
+    """How many failed episodes of a planner are looked at, of each case."""
+    return MOST if spec.axes is None else MOST_IN_A_CELL
+
+
+def _failures(outcome: Any, solvable: Any, most: int) -> Iterator[int]:
     failed = outcome != ARRIVED
-    chosen = [*np.flatnonzero(failed & solvable)[:MOST], *np.flatnonzero(failed & ~solvable)[:MOST]][:MOST]
+    chosen = [*np.flatnonzero(failed & solvable)[:most], *np.flatnonzero(failed & ~solvable)[:most]][:most]
     yield from map(int, chosen)
 
 
 def _look(spec: Evaluation, planner: str, index: int, solvable: bool, shows: tuple[str, ...] = ()) -> Example:
     states, moves = [spec.start(index, planner)], []
-    closeness, nearest = Closeness(), 0
+    closeness = Closeness() if NEAR.intersection(shows) else None
+    nearest = 0
     while states[-1].world.outcome is Outcome.RUNNING:
         done = step(states[-1])
         states.append(with_rules(states[-1], done.state))
         moves.append(None if done.decision is None else done.decision.move)
+        if closeness is None:
+            continue
         before = closeness.ttc_s, closeness.gap_m
         closeness.add(states[-2], done.state, moves[-1])
         if (closeness.ttc_s, closeness.gap_m) != before:
             nearest = len(moves)
     last = states[-1].world
     ends = len(states) - 1
-    if last.outcome is Outcome.SUCCESS and NEAR.intersection(shows):
+    if last.outcome is Outcome.SUCCESS and closeness is not None:
         ends = nearest
     back = min(ends, _LAST if last.outcome is Outcome.STUCK else BEFORE)
     shown = states[ends - back].world

@@ -10,7 +10,7 @@ import numpy as np
 from sim.evaluate.closeness import Closeness
 from sim.evaluate.executor import CancelledError
 from sim.evaluate.rows import ARRIVED, NO_WAY, ROADS, UNKNOWN, WAY, Columns, Rows
-from sim.evaluate.spec import DETAILED, STATES, Evaluation, Part
+from sim.evaluate.spec import STATES, Evaluation, Part
 from sim.oracle.lower_bounds import can_arrive, least_ticks
 from sim.search.reactive import ImpatientError
 from sim.session.triggers import fire
@@ -32,7 +32,7 @@ def run_part(spec: Evaluation, part: Part, cancelled: Callable[[], bool] = lambd
     if spec.cases:
         number, first = divmod(part.first, spec.episodes)
         return run_part(spec.under(number), Part(first, part.count), cancelled)
-    close = part.first < DETAILED
+    close = part.first < spec.detailed
     rows: Rows = {}
     for planner in spec.planners:
         if cancelled():

@@ -7,7 +7,7 @@ from functools import partial
 from threading import Event
 from typing import Any
 
-from sim.evaluate.executor import Executor, InProcess
+from sim.evaluate.executor import Executor, run_all
 from sim.evaluate.part import run_part
 from sim.evaluate.rows import join, pack, unpack
 from sim.evaluate.spec import Evaluation, Part
@@ -42,12 +42,18 @@ def evaluate(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda _: None,
     cancelled: Event | None = None,
+    parts: dict[Part, bytes] | None = None,
 ) -> dict[str, Any] | None:
-    """The summary of an evaluation; None where it was cancelled. `progress` is told the episodes done."""
-    cancelled = cancelled or Event()
-    executor = executor or InProcess()
-    parts: dict[Part, bytes] = {}
-    for piece, body in executor.run(partial(pack_part, spec.to_json()), spec.parts(), cancelled):
-        parts[piece] = body
-        progress(sum(part.count for part in parts))
-    return None if cancelled.is_set() else summarize_parts(spec, parts, cancelled.is_set)
+    """The summary of an evaluation; None where it was cancelled. `progress` is told the episodes done.
+
+    Parts that are there already are not run; the others are added as they are finished.
+    """
+    cancelled, done = cancelled or Event(), {} if parts is None else parts
+
+    def left() -> list[Part]:
+        return [part for part in spec.parts() if part not in done]
+
+    work = partial(pack_part, spec.to_json())
+    if not run_all(executor, work, left, done.__setitem__, cancelled, progress):
+        return None
+    return summarize_parts(spec, done, cancelled.is_set)

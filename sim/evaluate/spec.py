@@ -11,10 +11,11 @@ from sim import planner_names
 from sim.actions import Add, Copy, MoveThings, Pause, Remove, Replace, SetCount, Swap, Trigger
 from sim.config import COUNTS, Config, ConfigError, Problem
 from sim.evaluate.cases import MAX_CASES, SENSING, Case, config_under
+from sim.evaluate.success_map import AXES, MAX_CELLS, is_grid
 from sim.generation import GenerationError, generate
 from sim.oracle.lower_bounds import can_arrive
 from sim.randomness import MAX_SEED
-from sim.rules.compiled import COMPILED_KINDS, compiled_rules
+from sim.rules.compiled import COMPILED_KINDS, drives_in_batch
 from sim.search.reactive import ImpatientError
 from sim.session.edits import apply
 from sim.session.errors import EditError
@@ -38,6 +39,8 @@ LIVE_PART: Final = 20
 """Episodes of a part where a planner is asked one decision at a time."""
 DETAILED: Final = 200
 """Episodes, from the first one, that are followed tick by tick for how near things came."""
+IN_A_CELL: Final = 20
+"""The same of each cell of a success map, which has many: the compiled batch drives the others."""
 IN_AN_EPISODE: Final = (Add, Remove, SetCount, MoveThings, Swap, Replace, Copy, Pause)
 """What rules may do in an evaluation; a pause does nothing there. Others would begin another road, or change
 what is compared."""
@@ -60,6 +63,11 @@ class Part:
     first: int
     count: int
 
+    @property
+    def weight(self) -> int:
+        """Its share of the work, in episodes."""
+        return self.count
+
 
 @dataclass(frozen=True, kw_only=True)
 class Evaluation:
@@ -69,6 +77,7 @@ class Evaluation:
     With a `world`, every episode starts from that one (`sim.world.notation`), and the seed decides only what
     is left to chance. With `cases`, every planner drives all of them under each, and there are `total`
     episodes: those of the first case come first, then those of the second, each from the same seeds.
+    `scenario_name` is what the roads are called in reports; it decides nothing.
     """
 
     planners: tuple[str, ...]
@@ -79,6 +88,9 @@ class Evaluation:
     cases: tuple[Case, ...] = ()
     rules: tuple[Trigger, ...] = ()
     """rules that stand from the beginning of every episode (`sim.session.triggers`)"""
+    axes: tuple[str, str] | None = None
+    """of a success map, whose cells the cases are (`sim.evaluate.success_map`)"""
+    scenario_name: str | None = None
 
     def __post_init__(self) -> None:
         names = tuple(dict.fromkeys(planner_names.canonical(name) for name in self.planners))
@@ -105,8 +117,12 @@ class Evaluation:
             yield Problem("rules", "must_stay_on_the_road")
 
     def _case_problems(self) -> Iterator[Problem]:
-        if len(self.cases) > MAX_CASES:
-            yield Problem("conditions", "must_be_between", low=1, high=MAX_CASES)
+        most = MAX_CASES if self.axes is None else MAX_CELLS
+        if len(self.cases) > most:
+            yield Problem("conditions", "must_be_between", low=1, high=most)
+        if self.axes is not None and self.cases and not is_grid(self.axes, self.cases):
+            yield Problem("map", "must_be_a_list_of", choices=AXES)
+            return
         for case in self.cases:
             if self.world is not None and any(name not in SENSING for name in case.said):
                 yield Problem("conditions", "must_be_a_list_of", choices=SENSING)
@@ -172,15 +188,26 @@ class Evaluation:
         return state
 
     @property
+    def detailed(self) -> int:
+        """Episodes of each case, from the first one, that are followed tick by tick."""
+        return DETAILED if self.axes is None else IN_A_CELL
+
+    @property
     def part_size(self) -> int:
         """Episodes of a part; the slowest planner decides."""
-        if self.episodes < COMPILED_FROM or not all(self.compiled(name) for name in self.planners):
+        if not all(self.compiled(name) for name in self.planners):
             return LIVE_PART
         return min(COMPILED[name] for name in self.planners)
 
     def compiled(self, planner: str) -> bool:
         """Whether the compiled batch drives this planner on these roads."""
-        return self.episodes >= COMPILED_FROM and planner in COMPILED and self._fits_batch
+        least = COMPILED_FROM if self.axes is None else IN_A_CELL  # a map has many cells
+        return (
+            self.episodes >= least
+            and planner in COMPILED
+            and self._fits_batch
+            and drives_in_batch(self.config, planner)
+        )
 
     @cached_property
     def _fits_batch(self) -> bool:
@@ -190,7 +217,6 @@ class Evaluation:
             self.world is None
             and not self.rules
             and config.layout is None
-            and compiled_rules(config)
             and not any(getattr(config, name) for kind, name in COUNTS.items() if kind not in COMPILED_KINDS)
         )
 
@@ -202,7 +228,7 @@ class Evaluation:
                 for number in range(len(self.cases))
                 for part in self.under(number).parts()
             ]
-        edge, size = min(DETAILED, self.episodes), self.part_size
+        edge, size = min(self.detailed, self.episodes), self.part_size
         firsts = [*range(0, edge, LIVE_PART), *range(edge, self.episodes, size)]
         ends = [*firsts[1:], self.episodes]
         return [Part(first, end - first) for first, end in zip(firsts, ends, strict=True)]
@@ -217,6 +243,8 @@ class Evaluation:
             "world": self.world,
             "cases": [case.to_json() for case in self.cases],
             "rules": [rule_values(rule) for rule in self.rules],
+            "axes": None if self.axes is None else list(self.axes),
+            "scenario_name": self.scenario_name,
         }
 
     @staticmethod
@@ -228,4 +256,5 @@ class Evaluation:
         parts["config"] = saved_config(parts["config"])
         parts["cases"] = tuple(map(Case.from_json, parts.get("cases", ())))
         parts["rules"] = tuple(map(rule_of, parts.get("rules", ())))
+        parts["axes"] = tuple(parts["axes"]) if parts.get("axes") else None
         return Evaluation(**parts)

@@ -8,18 +8,15 @@ settings of what is varied. Movers that react draw as they did, so the runs diff
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Final
 
 from sim import sensor_names
-from sim.actions import Set
 from sim.config import Config
+from sim.explain.driven_again import NotAgainError, drive_again
 from sim.perceive import NO_BELIEF, Belief, Percept, perceive
-from sim.session.edits import apply
-from sim.session.errors import EditError
 from sim.session.timeline import Timeline
 from sim.state import SimState
-from sim.transition import step
 from sim.types import Outcome, is_ego
 from sim.world import World
 
@@ -131,21 +128,11 @@ def _changes(config: Config) -> Iterator[tuple[str, str]]:
 
 
 def _rerun(timeline: Timeline, start: SimState, end: int, setting: str, value: str) -> Alternative:
-    changed: dict[str, Any] = {setting: value}
-    state = replace(start, config=start.config.with_parts(**changed)).with_each_ego(belief=NO_BELIEF)
-    first, episode = start.world.tick, start.world.episode
-    said = [entry for entry in timeline.entries if first < entry.tick <= end]
-    while state.world.outcome is Outcome.RUNNING:
-        now = state.world.tick
-        for entry in said:
-            varied = isinstance(entry.action, Set) and entry.action.parameter == setting
-            if entry.tick != now or varied:
-                continue
-            try:
-                state = apply(state, entry.action).state
-            except EditError:
-                return Alternative(setting, value, None, now - first)
-        if state.world.episode != episode or state.world.outcome is not Outcome.RUNNING:
-            return Alternative(setting, value, None, now - first)
-        state = step(state).state
-    return Alternative(setting, value, state.world.outcome, state.world.tick - first)
+    first = start.world.tick
+    last = start
+    try:
+        for _, tick in drive_again(timeline, start, end, (setting, value)):
+            last = tick.state
+    except NotAgainError:
+        return Alternative(setting, value, None, last.world.tick - first)
+    return Alternative(setting, value, last.world.outcome, last.world.tick - first)

@@ -53,6 +53,8 @@ class Fault(StrEnum):
     """a person had asked for the move"""
     PLANNER = "planner"
     """the planner gave no valid answer"""
+    SLIPPED = "slipped"
+    """the move looked free, and its step to the side was lost on snow"""
     SENSOR = "sensor"
     """the move looked free, since something was not detected where it was"""
     EGO = "ego"
@@ -204,7 +206,7 @@ def _run(state: SimState, ego: str) -> list[tuple[SimState, StepResult]]:
 
 def _entered(crash: Crash, after: SimState, decision: Decision) -> Entered:
     """Who moved in the last tick, of the ego and what it hit; `after`: the state with the crash."""
-    if decision.move is Move.STAY:
+    if crash.made is Move.STAY:
         return Entered.OTHER
     state = crash.explanation.moment
     moved = [
@@ -234,6 +236,8 @@ def _fault(
         return Fault.PLANNER
     if decision.asked is not None and not decision.held_back:
         return Fault.PERSON
+    if not knew and crash.slipped:
+        return Fault.SLIPPED
     if not knew and any(name in crash.cause.ids for name in crash.missed):
         return Fault.SENSOR
     could = bool(free) and knew

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-from sim.explain.futures import Futures
+from sim.explain.futures import find_ends
 from sim.explain.question_error import QuestionError
 from sim.plan import traits_of
 from sim.state import FIRST, SimState
@@ -33,24 +33,21 @@ class Chances:
     """whether all futures end alike, at the same tick"""
 
 
-def chances(state: SimState, ego: str | None = None, *, seen: bool, part: int = PART) -> Chances | None:
+def chances(
+    state: SimState, ego: str | None = None, *, seen: bool, part: int = PART, even_certain: bool = False
+) -> Chances | None:
     """The chances of an ego, the first by default; `seen`: whether it sees who reacts in the coming tick.
 
-    The work is that of a confidence divided by `part`. None where nothing is left to chance, where a person
-    drives, and where a planner does not answer.
+    The work is that of a confidence divided by `part`. None where nothing is left to chance (`even_certain`:
+    the one end is found then), where a person drives, and where a planner does not answer.
     """
-    if state.config.certain or (
+    if (state.config.certain and not even_certain) or (
         state.ego(ego).mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING
     ):
         return None
     most = traits_of(state.config_of(ego).planner).decisions_per_answer // part
-    futures = Futures(state, ego or FIRST, most=most, seen=seen)
     try:
-        ends = futures.walked()
-        drawn = None
-        if ends is None:
-            ends = futures.drawn()
-            drawn = round(sum(ends.values()))
+        ends, drawn, _, _ = find_ends(state, ego or FIRST, most=most, seen=seen)
     except QuestionError:
         return None
     mass = dict.fromkeys((*Outcome, None), 0.0)

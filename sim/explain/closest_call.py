@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache, lru_cache
 from itertools import pairwise, product
 from math import hypot, inf
 from typing import Final
@@ -65,11 +66,10 @@ def encounters(before: World, after: World) -> Iterator[tuple[str, Path, Path]]:
     if not _one_step(start, end):
         return
     own = Path(Kind.AV, start, end)
-    for across, along in product(range(-REACH, REACH + 1), repeat=2):
-        cell = start[0] + across, start[1] + along
-        if not (0 <= cell[0] < road.columns and 0 <= cell[1] < road.rows):
-            continue
-        id = before.movers.get(road.index(cell))
+    columns = range(max(0, start[0] - REACH), min(road.columns, start[0] + REACH + 1))
+    rows = range(max(0, start[1] - REACH), min(road.rows, start[1] + REACH + 1))
+    for cell in product(columns, rows):
+        id = before.movers.get(cell[1] * road.columns + cell[0])
         if id is None:
             continue
         for step in (0, -1, 1):
@@ -88,7 +88,16 @@ def _one_step(start: tuple[int, int], end: tuple[int, int]) -> bool:
 
 def least_gap(one: Path, other: Path) -> float:
     """The least distance between two bodies within a tick, in cells; 0 on contact."""
-    x, y, u, v, reach_x, reach_y = _relative(one, other)
+    return _least_gap(*_relative(one, other))
+
+
+def ticks_to_contact(one: Path, other: Path) -> float | None:
+    """Ticks until two bodies touch if both keep the motion of this tick; None if they never do."""
+    return _ticks_to_contact(*_relative(one, other))
+
+
+@lru_cache(maxsize=10_000)
+def _least_gap(x: int, y: int, u: int, v: int, reach_x: float, reach_y: float) -> float:
     times = [0.0, 1.0]
     times += [(side * reach_x - x) / u for side in (-1, 1) if u]
     times += [(side * reach_y - y) / v for side in (-1, 1) if v]
@@ -102,9 +111,8 @@ def least_gap(one: Path, other: Path) -> float:
     )
 
 
-def ticks_to_contact(one: Path, other: Path) -> float | None:
-    """Ticks until two bodies touch if both keep the motion of this tick; None if they never do."""
-    x, y, u, v, reach_x, reach_y = _relative(one, other)
+@lru_cache(maxsize=10_000)
+def _ticks_to_contact(x: int, y: int, u: int, v: int, reach_x: float, reach_y: float) -> float | None:
     enter, leave = 0.0, inf
     for apart, speed, reach in ((x, u, reach_x), (y, v, reach_y)):
         if not speed:
@@ -116,10 +124,18 @@ def ticks_to_contact(one: Path, other: Path) -> float | None:
     return enter if enter < leave else None
 
 
-def _relative(one: Path, other: Path) -> tuple[float, float, float, float, float, float]:
-    """Where another body is and how it moves in a tick as seen from one, and the half-sums of their sizes."""
+def _relative(one: Path, other: Path) -> tuple[int, int, int, int, float, float]:
+    """Where another body is and how it moves in a tick as seen from one, and the half-sums of their sizes.
+
+    There are few such situations, so what follows from them is remembered.
+    """
     x, y = other.start[0] - one.start[0], other.start[1] - one.start[1]
     u = other.end[0] - one.end[0] - x
     v = other.end[1] - one.end[1] - y
-    a, b = SIZES[one.kind], SIZES[other.kind]
-    return x, y, u, v, float(a.across + b.across) / 2, float(a.along + b.along) / 2
+    return x, y, u, v, *_reach(one.kind, other.kind)
+
+
+@cache
+def _reach(one: Kind, other: Kind) -> tuple[float, float]:
+    a, b = SIZES[one], SIZES[other]
+    return float(a.across + b.across) / 2, float(a.along + b.along) / 2

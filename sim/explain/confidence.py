@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from sim.explain.facts import QuestionError, check_ego
-from sim.explain.futures import Futures
+from sim.explain.futures import find_ends
 from sim.plan import Decision
 from sim.session.timeline import Timeline
 from sim.state import FIRST
@@ -102,12 +102,7 @@ def confidence(timeline: Timeline, *, ego: str | None = None) -> Confidence:
     check_ego(state, ego)
     if state.world.outcome is not Outcome.RUNNING:
         raise QuestionError("confidence_ended", outcome=state.world.outcome, tick=state.world.tick)
-    futures = Futures(state, ego or FIRST)
-    ends = futures.walked()
-    drawn = None
-    if ends is None:
-        ends = futures.drawn()
-        drawn = round(sum(ends.values()))
+    ends, drawn, work, branched = find_ends(state, ego or FIRST)
     mass = dict.fromkeys((*Outcome, None), 0.0)
     for (outcome, _), chance in ends.items():
         mass[outcome] += chance
@@ -116,7 +111,7 @@ def confidence(timeline: Timeline, *, ego: str | None = None) -> Confidence:
     waited = [ticks for outcome, ticks in ends if outcome is not None]
     arrives = shares[Outcome.SUCCESS]
     low, high = (arrives, arrives) if drawn is None else wilson(round(mass[Outcome.SUCCESS]), drawn)
-    method = Method.ONE_RUN if futures.branched == 0 else Method.ALL_FUTURES
+    method = Method.ALL_FUTURES if branched else Method.ONE_RUN
     return Confidence(
         tick=state.world.tick,
         method=method if drawn is None else Method.SAMPLED,
@@ -129,8 +124,8 @@ def confidence(timeline: Timeline, *, ego: str | None = None) -> Confidence:
         arrival_ticks=(min(arrivals), max(arrivals)) if arrivals else None,
         end_ticks=(min(waited), max(waited)) if waited else None,
         futures=drawn,
-        decisions=futures.work,
-        chance=state.config.mover_behaviour.draws(state.config),
+        decisions=work,
+        chance=state.config.mover_behaviour.draws(state.config) or state.config.slips > 0.0,
         by_hand=state.ego(ego).mode is Mode.MANUAL,
         clarity=_clarity(timeline, ego),
     )

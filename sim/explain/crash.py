@@ -19,7 +19,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
-from sim.commit import commit
+from sim.commit import commit, moves_with
 from sim.explain.alternatives import after_move
 from sim.explain.avoidance import UNKNOWN, Avoidable, find_avoidance
 from sim.explain.factors import is_factor
@@ -33,6 +33,7 @@ from sim.oracle.lower_bounds import PATIENCE, least_ticks
 from sim.oracle.other_egos import ego_first
 from sim.perceive import Percept, perceive_truth
 from sim.plan import Decision, Option
+from sim.rules.slipping import moves_made
 from sim.search.reactive import ImpatientError
 from sim.session.timeline import SNAPSHOT_TICKS, Timeline
 from sim.state import FIRST, SimState
@@ -83,6 +84,19 @@ class Crash:
     """the moves of the last tick with what each of them would have met, whatever was seen of it"""
     missed: tuple[str, ...] = ()
     """of what was hit and what it hung on, the things that were not detected where they were"""
+
+    @property
+    def made(self) -> Move:
+        """The move of the last tick as it was made, which is not the one decided where that slipped."""
+        moment, decision = self.explanation.moment, self.explanation.decision
+        number = moment.number(decision.av)
+        tried = moves_with(moment.world, decision.move, number)
+        return moves_made(moment.world, tried, moment.config)[number]
+
+    @property
+    def slipped(self) -> bool:
+        """Whether the step to the side of the last move was lost on snow."""
+        return self.made is not self.explanation.decision.move
 
 
 class _LastTick:

@@ -59,9 +59,8 @@ class WorkSpentError(Exception):
 
 
 def prepare(state: SimState) -> None:
-    """Load what makes the decisions of an explanation quick, where a planner looks to the goal."""
-    planners = {each.planner or state.config.planner for each in state.egos.values()}
-    if any(traits_of(planner).plans_to_goal for planner in planners):
+    """Load what makes an explanation quick, if it was ever compiled: decisions, futures and searches."""
+    if len(state.egos) == 1:
         load_compiled_costs()
 
 

@@ -7,15 +7,16 @@ may say meanwhile is left out: a story is told as if nothing were said any more.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
-from sim.episode_record import Sake, detour_reason
+from sim.episode_record import DetourReason, Sake, detour_reason
+from sim.explain.compiled_futures import compiled_drive, drive_is_compiled_for
 from sim.explain.effort import prepare
 from sim.plan import Decision, traits_of
 from sim.state import SimState, StepResult
 from sim.transition import step
-from sim.types import Mode, Move, Outcome
+from sim.types import Mode, Move, Outcome, kind_of
 from sim.world import Cause
 from sim.world.grid import Road
 
@@ -104,7 +105,75 @@ class RouteAhead:
 
 def story(state: SimState, *, ego: str | None = None) -> EpisodeRollout:
     """What comes of a run if nothing more is said, told of an ego, the first by default."""
-    return summarize(state, list(rollout(state, ego=ego)), ego=ego)
+    return drive(state, ego=ego).story
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """A run to the end of its episode, each tick of which can be looked up."""
+
+    state: SimState
+    story: EpisodeRollout
+    ego: str | None
+    _ticks: tuple[tuple[SimState, StepResult], ...] | None
+    """None where it was driven in compiled words"""
+
+    def moves(self) -> list[tuple[int, Move]]:
+        """The moves that led on, with their ticks; one that did not come in time leads nowhere."""
+        if self._ticks is None:
+            return list(enumerate(self.story.path, self.story.tick))
+        found = [decided(tick, self.ego) for _, tick in self._ticks]
+        return [(each.tick, each.move) for each in found if each is not None and not each.timed_out]
+
+    def at(self, tick: int) -> SimState:
+        """The state before a tick of the run."""
+        if self._ticks is None:
+            return compiled_drive(self.state, tick - self.story.tick).state
+        return next(state for state, _ in self._ticks if state.world.tick == tick)
+
+
+def drive(state: SimState, first: Decision | None = None, *, ego: str | None = None) -> Drive:
+    """What comes of a run if nothing more is said, by compiled words where they are loaded for it.
+
+    `first`: as in `rollout`.
+    """
+    prepare(state)
+    if first is None and is_driven_in_words(state, ego):
+        return Drive(state, _compiled_story(state), ego, None)
+    ticks = tuple(rollout(state, first, ego=ego))
+    return Drive(state, summarize(state, list(ticks), ego=ego), ego, ticks)
+
+
+def is_driven_in_words(state: SimState, ego: str | None = None) -> bool:
+    """Whether a run is driven by compiled words, to its end."""
+    if not drive_is_compiled_for(state, ego):
+        return False
+    config, world = state.config_of(ego), state.world
+    if not traits_of(config.planner).plans_to_goal:
+        return True
+    return (config.max_ticks + 1 - world.episode_tick) * _work(world.road) <= MAX_WORK
+
+
+def _compiled_story(state: SimState) -> EpisodeRollout:
+    """`story` of a run that is driven in compiled words up to its last tick."""
+    driven = compiled_drive(state)
+    world, columns = state.world, state.world.road.columns
+    detours, cell = [], world.av
+    for tick, (move, met) in enumerate(zip(driven.moves, driven.met, strict=True), world.tick):
+        if move is not Move.FORWARD:
+            ahead = cell - columns
+            ids = tuple(name for name in (world.hazards.get(ahead), met) if name)
+            detours.append(Detour(tick, move, kind_of(ids[0]) if ids else DetourReason.BETTER, ids))
+        across, along = move.offset
+        cell += across + along * columns
+    last = step(driven.state)
+    told = summarize(driven.state, [(driven.state, last)])
+    return replace(
+        told,
+        tick=world.tick,
+        path=driven.moves + told.path,
+        detours=(*detours, *told.detours),
+    )
 
 
 def rollout(

@@ -10,6 +10,7 @@ from sim.actions import Add, WorldAction
 from sim.explain.alternatives import Alternatives
 from sim.explain.question_error import QuestionError
 from sim.plan import Decision
+from sim.plan.rule_based import Leads
 from sim.state import SimState
 from sim.types import Cell, Kind, Move
 
@@ -51,7 +52,7 @@ class Cause:
     """whether the decision flips when this thing alone is taken away"""
     group: tuple[str, ...]
     """what must go together for the decision to flip: this one, and its stand-ins if any; empty where there
-    are so many that it was not looked for"""
+    are so many that it was not looked for, or not every part of it can be tried"""
     each_enough: bool = False
     """whether each of a group of several would have been enough by itself"""
     real: bool = True
@@ -65,10 +66,13 @@ class Link:
     """What another thing has to do with something that stood in the way of a move."""
 
     blocker: str
-    by: str
-    """without it the blocker is not in the way; if `behind`, it is in the way itself without the blocker"""
+    by: str | None
+    """without it the blocker is not in the way; if `behind`, it is in the way itself without the blocker, or
+    closes the way on from there; None where the cell is free without the blocker, and yet not entered"""
     move: Move
     behind: bool = False
+    leads: Leads | None = None
+    """where the move leads if its cell is free without the blocker, of a planner that goes by that"""
 
 
 @dataclass(frozen=True, slots=True)

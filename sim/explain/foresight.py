@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from sim.explain.chances import Chances, chances
-from sim.explain.episode_rollout import EpisodeRollout, rollout, summarize
+from sim.explain.episode_rollout import EpisodeRollout, story, summarize
 from sim.explain.question_error import QuestionError
 from sim.session.timeline import Timeline
 from sim.state import SimState
@@ -57,7 +57,7 @@ def foresee(state: SimState, ego: str | None = None, *, seen: bool = True) -> Fo
     driven = driving(state, ego)
     if state.world.outcome is not Outcome.RUNNING:
         return Foresight(driven, summarize(driven, [], ego=ego), None)
-    told = summarize(driven, list(rollout(driven, ego=ego)), ego=ego)
+    told = story(driven, ego=ego)
     return Foresight(driven, told, chances(driven, ego, seen=seen, part=1))
 
 

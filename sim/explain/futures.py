@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import count
-from typing import Final, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 from sim.config import Config
 from sim.decide import INTO_ANOTHER, decide_on, sense
+from sim.explain.compiled_futures import compiled_futures, futures_are_compiled_for
 from sim.explain.effort import prepare
 from sim.explain.question_error import QuestionError
 from sim.forecast import Forecast
@@ -39,6 +40,37 @@ End: TypeAlias = tuple[Outcome | None, int]
 """How and how many ticks from now a future ends; None where it is shut off from the goal."""
 Ends: TypeAlias = dict[End, float]
 """The chance of each end, or how often it was met."""
+
+
+class Found(NamedTuple):
+    """The ends of the futures of a moment."""
+
+    ends: Ends
+    drawn: int | None
+    """how many futures were drawn; None where every future was run, and the chances are exact"""
+    work: int
+    """decisions taken"""
+    branched: bool
+    """whether anything is left to chance on the way"""
+
+
+def find_ends(state: SimState, ego: str = FIRST, *, most: int | None = None, seen: bool = True) -> Found:
+    """The ends of the futures of an ego, by compiled words where they are loaded for them.
+
+    `most` and `seen`: as in `Futures`. Raises `QuestionError` where a planner does not answer.
+    """
+    limit = traits_of(state.config_of(ego).planner).decisions_per_answer if most is None else most
+    if futures_are_compiled_for(state, ego):
+        compiled = compiled_futures(state, limit, PROOF_AFTER, MAX_FUTURES, seen=seen)
+        drawn = round(sum(compiled.ends.values())) if compiled.drawn else None
+        return Found(compiled.ends, drawn, compiled.work, compiled.branched > 0)
+    futures = Futures(state, ego, most=most, seen=seen)
+    ends = futures.walked()
+    drawn = None
+    if ends is None:
+        ends = futures.drawn()
+        drawn = round(sum(ends.values()))
+    return Found(ends, drawn, futures.work, futures.branched > 0)
 
 
 @dataclass(slots=True)
@@ -90,8 +122,11 @@ class Futures:
         # A tick that is drawn to be certain proves nothing about those that come again.
         self._unlike = config.with_parts(repetition=config.repetition and config.certain)
 
-    def walked(self) -> Ends | None:
-        """The chance of each end, by outcome and ticks from now; None if the tree is too large to walk."""
+    def walked(self, within: int | None = None) -> Ends | None:
+        """The chance of each end, by outcome and ticks from now; None if the tree is too large to walk.
+
+        `within`: ticks after which a future is followed no further, and counts as running.
+        """
         ends: Ends = {}
         layer: dict[int, tuple[_Node, float]] = {id(self._root): (self._root, 1.0)}
         if (shut := self._end(self._root)) is not None:
@@ -102,7 +137,7 @@ class Futures:
                 if self.branched and self.work >= WALK_SHARE * self._limit:
                     return None
                 for chance, then in self._after(node):
-                    end = self._end(then)
+                    end = self._end(then, within)
                     if end is not None:
                         ends[end] = ends.get(end, 0.0) + mass * chance
                     else:
@@ -111,7 +146,7 @@ class Futures:
             layer = after
         return ends
 
-    def drawn(self) -> Ends:
+    def drawn(self, within: int | None = None) -> Ends:
         """How often each end was met, by outcome and ticks from now, in futures drawn by chance.
 
         Whether one more is drawn does not hang on how long it would be, so that short ones are not favoured.
@@ -124,7 +159,7 @@ class Futures:
             if self.work >= limit:
                 break
             node, draws, step = self._root, stream.narrow(number), count()
-            while (end := self._end(node)) is None:
+            while (end := self._end(node, within)) is None:
                 node = _pick(self._after(node), draws.uniform(next(step)))
             ends[end] = ends.get(end, 0.0) + 1.0
         return ends
@@ -133,9 +168,11 @@ class Futures:
     def _limit(self) -> int:
         return self._traits.decisions_per_answer if self.most is None else self.most
 
-    def _end(self, node: _Node) -> End | None:
+    def _end(self, node: _Node, within: int | None = None) -> End | None:
         world = node.state.world
         ticks = world.tick - self.start.world.tick
+        if within is not None and ticks >= within and world.outcome is Outcome.RUNNING:
+            return Outcome.RUNNING, ticks
         if self._several and world.avs[self._number] < world.road.columns:
             return (Outcome.CRASH if world.outcome is Outcome.CRASH else Outcome.SUCCESS), ticks
         if world.outcome is not Outcome.RUNNING:
@@ -155,6 +192,14 @@ class Futures:
         if node.after is None:
             known = self.seen and node is self._root
             ways = [(1.0, self.start.config)] if known else list(self._ways(node.state))
+            if share := self.start.config.slips:
+                # Whether a move slips is seen by nobody; what it is drawn to be, these draw for sure.
+                ways = [
+                    (chance * part, config.with_parts(slip_probability=float(slips)))
+                    for chance, config in ways
+                    for slips, part in ((False, 1.0 - share), (True, share))
+                    if part
+                ]
             self.branched += len(ways) > 1
             node.after = [(chance, self._step(node.state, config)) for chance, config in ways]
         return node.after

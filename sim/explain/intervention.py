@@ -64,7 +64,7 @@ class Intervention:
         self.quick: QuickMoves | None = None
         """what finds moves many at once, where that can be"""
         if self.faithful and QuickMoves.answers(state, decision, self.percept):
-            self.quick = QuickMoves(state.config_of(self.ego), self.percept, decision.move, decision.measure)
+            self.quick = QuickMoves(state.config_of(self.ego), self.percept, decision)
         self.count = 0
         self._work, self._most = 0, most
         self._known: dict[tuple[str, frozenset[str]], Move] = {}

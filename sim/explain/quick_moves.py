@@ -16,6 +16,7 @@ from sim.perceive import Percept
 from sim.plan import Decision, Measure
 from sim.rules.compiled import compiled_rules
 from sim.search.compiled_costs import Unlike, are_loaded, compiled_moves
+from sim.search.compiled_rows import BY_RANK, MOST_COLUMNS, compiled_moves_by_rank
 from sim.search.costs import TICKS_ALONE, Weights, weights
 from sim.search.reachability import steps_left
 from sim.state import SimState
@@ -35,8 +36,13 @@ class QuickMoves:
     @staticmethod
     def answers(state: SimState, decision: Decision, percept: Percept) -> bool:
         """Whether this can be had, by the planner, the road and what is loaded."""
+        if decision.measure is Measure.RANK:
+            known = decision.planner in BY_RANK and percept.road.columns <= MOST_COLUMNS
+        else:
+            known = decision.measure in (Measure.COST, Measure.TICKS)
+            known = known and steps_left(state.config, percept.episode_tick) > 1
         return (
-            decision.measure in (Measure.COST, Measure.TICKS)
+            known
             and decision.asked is None
             and decision.fault is None
             and are_loaded()
@@ -44,18 +50,18 @@ class QuickMoves:
             and not percept.egos
             and compiled_rules(state.config)
             and percept.boards.others == percept.pedestrians
-            and steps_left(state.config, percept.episode_tick) > 1
         )
 
-    def __init__(self, config: Config, percept: Percept, fact: Move, by: Measure) -> None:
-        """Precondition: `answers`. `fact`: the move of the decision, `by`: what it weighs."""
+    def __init__(self, config: Config, percept: Percept, decision: Decision) -> None:
+        """Precondition: `answers`."""
         road = percept.road
         row = percept.ego // road.columns
-        self.work = work_among_many(road.columns, row)
+        self._ranked = decision.planner if decision.measure is Measure.RANK else None
+        self.work = 1 if self._ranked else work_among_many(road.columns, row)
         """of one move"""
-        self._config, self._percept, self._fact = config, percept, fact
-        self._ticks = by is Measure.TICKS
-        self._charges = TICKS_ALONE if self._ticks else weights(config)
+        self._config, self._percept, self._fact = config, percept, decision.move
+        self._by_cost = decision.measure is Measure.COST
+        self._charges = weights(config) if self._by_cost else TICKS_ALONE
         self._limit = steps_left(config, percept.episode_tick)
         self._movers = {name: 1 << cell for cell, name in percept.movers.items()}
         self._fixed = {name: 1 << cell for cell, name in percept.hazards.items()}
@@ -69,12 +75,12 @@ class QuickMoves:
         asked = [place for place, change in enumerate(changes) if self._matters(change)]
         found = [self._fact] * len(changes)
         if asked:
-            moves = compiled_moves(
-                self._percept,
-                [changes[place].unlike for place in asked],
-                [changes[place].charges for place in asked],
-                self._limit,
-            )
+            unlike = [changes[place].unlike for place in asked]
+            if self._ranked:
+                moves = compiled_moves_by_rank(self._percept, self._ranked, unlike)
+            else:
+                charges = [changes[place].charges for place in asked]
+                moves = compiled_moves(self._percept, unlike, charges, self._limit)
             for place, move in zip(asked, moves, strict=True):
                 found[place] = move
         return found
@@ -108,4 +114,4 @@ class QuickMoves:
     def charges_without(self, names: Collection[str]) -> Weights:
         """The charges without those of these names that are wishes or settings."""
         config = without(self._config, names)
-        return self._charges if self._ticks or config is self._config else weights(config)
+        return weights(config) if self._by_cost and config is not self._config else self._charges

@@ -17,9 +17,11 @@ from sim.explain.effort import WorkSpentError
 from sim.explain.facts import Link
 from sim.explain.intervention import Intervention
 from sim.explain.relevance import having_part, tried_singly
+from sim.forecast import predict
 from sim.perceive import Percept
 from sim.plan import Decision, Measure, Option, traits_of
-from sim.types import MOVES
+from sim.plan.rule_based import Leads, standing
+from sim.types import MOVES, Move
 
 MOST_BEHIND = 3
 """So many times what comes to stand in the way once others are gone is taken away too."""
@@ -169,10 +171,32 @@ def _held_by(rerun: Intervention, name: str, option: Option, by: Iterable[str]) 
 
 
 def _behind(rerun: Intervention, name: str, option: Option, by: Iterable[str]) -> Link | None:
-    """Which of these would be in the way of a move, were the thing that is in its way gone."""
-    met = rerun.decision_without([name]).option(option.move).causes
+    """What would hold a move back, were the thing that is in its way gone: one of these if it is one of them.
+
+    Of a planner that weighs costs only these count: its moves are held back by what they cost.
+    """
+    after = rerun.decision_without([name])
+    met = after.option(option.move).causes
     other = next((other for other in by if other != name and other in met), None)
-    return None if other is None else Link(name, other, option.move, behind=True)
+    if other is not None:
+        return Link(name, other, option.move, behind=True)
+    if rerun.decision.measure is not Measure.RANK or after.move is not rerun.decision.move:
+        return None
+    if met:
+        return Link(name, met[0], option.move, behind=True)
+    return _led(rerun, name, option.move)
+
+
+def _led(rerun: Intervention, name: str, move: Move) -> Link:
+    """Where a move would lead that is not made, though its cell is free without a thing."""
+    if not traits_of(rerun.decision.planner).by_passages:
+        return Link(name, None, move, behind=True)
+    forecast = predict(rerun.percept.without(frozenset((name,))), 1)
+    prospect = standing(forecast).of(move)
+    if prospect is None or prospect.leads not in (Leads.CLOSED, Leads.NOWHERE):
+        return Link(name, None, move, behind=True)
+    closer = None if prospect.closer is None else forecast.slices.movers(0)[prospect.closer]
+    return Link(name, closer, move, behind=True, leads=prospect.leads)
 
 
 def _grouped(

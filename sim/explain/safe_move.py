@@ -1,7 +1,7 @@
 """Whether a move is safe: what it meets, and what comes of driving on after it, both run.
 
 A move is safe if it meets nothing and no future after it ends in a crash. The step itself is judged by what
-is there, whatever the sensor shows of it.
+is there, whatever the sensor shows of it. How sure that is, `sim.explain.assurance` says.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from sim.explain.alternatives import after_move
+from sim.explain.assurance import Assurance, assurance
 from sim.explain.foresight import Foresight, driving, foresee, running_state
 from sim.oracle.lower_bounds import PATIENCE, can_arrive
 from sim.search.reactive import ImpatientError
@@ -31,6 +32,8 @@ class SafeMove:
     """how it goes on after it; None where it cannot be made, or hits something"""
     open: bool | None
     """whether a way leads to the goal after it; None where that was not found out, or not asked"""
+    assurance: Assurance | None = None
+    """how sure it is that the ego keeps clear; None where the move cannot be made, or hits something"""
 
     @property
     def safe(self) -> bool:
@@ -56,10 +59,13 @@ def safe_move(timeline: Timeline, move: Move, *, ego: str | None = None) -> Safe
     cause = after.world.cause
     if cause is not None and (ego or state.ego().id) in (cause.ego, *cause.ids):
         return SafeMove(state, move, False, cause, None, None)
-    return SafeMove(state, move, False, None, foresee(after, ego, seen=False), _open(after, ego))
+    then, leads_on = foresee(after, ego, seen=False), leads_to_goal(after, ego)
+    sure = assurance(state, then.crashes, lambda: leads_on, move=move, ego=ego)
+    return SafeMove(state, move, False, None, then, leads_on, sure)
 
 
-def _open(state: SimState, ego: str | None) -> bool | None:
+def leads_to_goal(state: SimState, ego: str | None = None) -> bool | None:
+    """Whether a way leads to the goal; None where that takes too long to find out."""
     try:
         return can_arrive(state, PATIENCE, ego)
     except ImpatientError:

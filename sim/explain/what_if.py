@@ -13,16 +13,15 @@ from dataclasses import dataclass
 from sim.actions import WorldAction
 from sim.decide import announced_before, decide_on, sense
 from sim.explain.chances import Chances, chances
-from sim.explain.episode_rollout import EpisodeRollout, decided, rollout, summarize
+from sim.explain.episode_rollout import Drive, EpisodeRollout, drive
 from sim.explain.facts import check_ego
 from sim.explain.moments import state_at
 from sim.oracle.lower_bounds import PATIENCE
 from sim.oracle.regret import Regret, regret
-from sim.plan import Decision
 from sim.search.reactive import ImpatientError
 from sim.session.edits import ON_THE_NEXT_ROAD, Applied, apply
 from sim.session.timeline import Timeline
-from sim.state import SimState, StepResult
+from sim.state import SimState
 from sim.types import Move, Outcome
 
 
@@ -104,21 +103,25 @@ def what_if(
     if undetected and changed.world.outcome is Outcome.RUNNING:
         percept = sense(changed, announced_before(changed, ego), ego)[0]
         first = decide_on(changed, percept.without(undetected), ego)
-    real_ticks, changed_ticks = list(rollout(state, ego=ego)), list(rollout(changed, first, ego=ego))
-    real, other = summarize(state, real_ticks, ego=ego), summarize(changed, changed_ticks, ego=ego)
+    real, other = drive(state, ego=ego), drive(changed, first, ego=ego)
     same_road = not _new_road(done)
-    difference = _first_difference(real_ticks, changed_ticks, ego) if same_road else None
+    difference = _first_difference(real, other) if same_road else None
     lost, certain = None, state.config.certain
     if difference is not None:
-        before = next(state for state, _ in real_ticks if state.world.tick == difference.tick)
         with suppress(ImpatientError):
-            lost = regret(before, difference.real, PATIENCE, ego=ego)
+            lost = regret(real.at(difference.tick), difference.real, PATIENCE, ego=ego)
     since = state.world.tick
     said_since = 0 if tick is None else sum(entry.tick > since for entry in timeline.entries)
     likely: tuple[Chances | None, Chances | None] = (None, None)
     if state.world.outcome is changed.world.outcome is Outcome.RUNNING and first is None:
-        likely = chances(state, ego, seen=True), chances(changed, ego, seen=True)
-    return WhatIf(state, tuple(done), real, other, same_road, difference, lost, certain, said_since, *likely)
+        known = state.config.certain and changed.config.certain
+        likely = (
+            chances(state, ego, seen=True, even_certain=not known),
+            chances(changed, ego, seen=True, even_certain=not known),
+        )
+    return WhatIf(
+        state, tuple(done), real.story, other.story, same_road, difference, lost, certain, said_since, *likely
+    )
 
 
 def _new_road(done: Sequence[Applied]) -> bool:
@@ -126,20 +129,9 @@ def _new_road(done: Sequence[Applied]) -> bool:
     return any(each.events and not isinstance(each.action, ON_THE_NEXT_ROAD) for each in done)
 
 
-def _first_difference(
-    real: Sequence[tuple[SimState, StepResult]],
-    changed: Sequence[tuple[SimState, StepResult]],
-    ego: str | None,
-) -> Difference | None:
+def _first_difference(real: Drive, changed: Drive) -> Difference | None:
     """The first of the decisions, one by one from the moment on, in which the moves are not the same."""
-    mine, theirs = _taken(real, ego), _taken(changed, ego)
-    for ahead, (one, other) in enumerate(zip(mine, theirs, strict=False)):
-        if one.move is not other.move:
-            return Difference(one.tick, ahead, one.move, other.move)
+    for ahead, ((tick, one), (_, other)) in enumerate(zip(real.moves(), changed.moves(), strict=False)):
+        if one is not other:
+            return Difference(tick, ahead, one, other)
     return None
-
-
-def _taken(ticks: Sequence[tuple[SimState, StepResult]], ego: str | None) -> list[Decision]:
-    """The decisions of an ego that led on; one that did not come in time leads nowhere."""
-    found = [decided(tick, ego) for _, tick in ticks]
-    return [decision for decision in found if decision is not None and not decision.timed_out]

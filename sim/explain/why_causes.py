@@ -28,7 +28,7 @@ from sim.explain.intervention import Intervention, wall
 from sim.explain.rest import Rest, tried_each_together
 from sim.oracle.ddmin import ddmin
 from sim.perceive import Percept
-from sim.plan import Decision, Option
+from sim.plan import Decision, Option, traits_of
 from sim.session.errors import EditError
 from sim.session.locate import nearest_to
 from sim.state import SimState
@@ -36,7 +36,7 @@ from sim.types import Move
 from sim.world import Thing
 
 MAX_TRIED = 6
-"""Sets up to this size have every part of them tried."""
+"""Sets up to this size have every part of them tried; a group that is larger is not told."""
 
 MAX_GROUPS = 6
 """Number of causes, not necessary alone, for which the group is searched."""
@@ -62,7 +62,7 @@ def explain_why(
     tried_each_together(rerun, names)
     groups, verified = _sufficient(rerun, fact, names)
     rerun.allow(effort.of(RESERVE))
-    rest = Rest.of(rerun, names, hindered, groups)
+    rest = Rest.of(rerun, names, _with_straight_on(decision, hindered), groups)
     rerun.allow(effort.of(RESERVE))
     causes = _with_what_the_rest_blocks(rerun, rank_causes(rerun, fact, rerun.seen, hindered, groups))
     also = rank_causes(rerun, fact, rerun.seen, hindered, rest.groups)
@@ -83,6 +83,18 @@ def explain_why(
         chain=rest.chain,
         untried=rest.untried,
     )
+
+
+def _with_straight_on(decision: Decision, hindered: list[Option]) -> list[Option]:
+    """The hindered options and straight on, of a planner that goes by where moves lead.
+
+    What is in the way there is told although such a planner may put a way that leads nowhere last.
+    """
+    straight = decision.option(Move.FORWARD)
+    by_itself = decision.asked is None and decision.fault is None
+    if not by_itself or straight in (*hindered, decision.chosen):
+        return hindered
+    return [straight, *hindered] if traits_of(decision.planner).by_passages else hindered
 
 
 def _sufficient(
@@ -187,7 +199,7 @@ def _group(tried: Tried, fact: object, name: str, names: list[str], enough: list
         return name, pair
     found = name, *minimal_subset(stand_ins, lambda gone: tried.without([name, *gone]) is not fact)
     if len(found) > MAX_TRIED:
-        return () if tried.without(found[1:]) is not fact else found
+        return ()  # a part of it may do, though no single member can be spared
     parts = (part for size in range(1, len(found)) for part in combinations(found, size))
     smallest = next((part for part in parts if tried.without(part) is not fact), found)
     return smallest if name in smallest else ()

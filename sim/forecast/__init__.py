@@ -2,5 +2,6 @@
 
 from sim.forecast.forecast import Forecast, StepVerdict, predict
 from sim.forecast.mover_rollout import RollOut
+from sim.forecast.reachable_sets import Occupancy, ReachableSets
 
-__all__ = ["Forecast", "RollOut", "StepVerdict", "predict"]
+__all__ = ["Forecast", "Occupancy", "ReachableSets", "RollOut", "StepVerdict", "predict"]

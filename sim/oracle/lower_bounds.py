@@ -15,10 +15,12 @@ from typing import Final
 from sim.forecast import Forecast
 from sim.oracle.other_egos import UndeterminedError, alone, arrives, check_others_stay, truth_for
 from sim.search.astar import cheapest
+from sim.search.compiled_rows import compiled_least_ticks, rows_are_compiled_for
 from sim.search.costs import weights
 from sim.search.reachability import flood_fill, reachability, shortest_plan, steps_left
 from sim.search.reactive import ReactiveSearch
 from sim.search.time_expanded import TimeExpandedGraph
+from sim.search.way_ahead import finds_way_ahead
 from sim.state import SimState
 from sim.types import Move, Outcome
 
@@ -34,6 +36,8 @@ def foreseen(state: SimState, *, ego: str | None = None, gone: Collection[str] =
     if state.world.outcome is not Outcome.RUNNING:
         raise ValueError("the episode has ended")
     check_others_stay(state, ego, gone)
+    if state.config.slips:
+        raise UndeterminedError("slips")
     limit = steps_left(state.config, state.world.episode_tick)
     return truth_for(state, max(1, limit), ego, gone), limit
 
@@ -59,8 +63,16 @@ def least_ticks(
     bound = _bound(state, ticks, limit)
     quicker = None
     if ticks is not None or _passable(forecast):
-        quicker = ReactiveSearch(state.world, state.config, forecast, patience).least_ticks(bound)
+        quicker = _searched(state, forecast, patience, bound)
     return ticks if quicker is None and state.config.free_ways_hold else quicker
+
+
+def _searched(state: SimState, forecast: Forecast, patience: int | None, bound: int) -> int | None:
+    """The ticks of a quickest way with the reactions of movers, by compiled words where these are loaded."""
+    world, config = state.world, state.config
+    if patience is not None and rows_are_compiled_for(world, config):
+        return compiled_least_ticks(world, config, bound, patience)
+    return ReactiveSearch(world, config, forecast, patience).least_ticks(bound)
 
 
 def _least_ticks_among_others(
@@ -99,9 +111,17 @@ def quickest_plan(
 
 
 def can_arrive(
-    state: SimState, patience: int | None = None, ego: str | None = None, gone: Collection[str] = ()
+    state: SimState,
+    patience: int | None = None,
+    ego: str | None = None,
+    gone: Collection[str] = (),
+    *,
+    states_ahead: int = 0,
 ) -> bool:
-    """Whether the goal can be reached from here in time. `patience` and `gone`: as for `least_ticks`."""
+    """Whether the goal can be reached from here in time. `patience` and `gone`: as for `least_ticks`.
+
+    `states_ahead`: so many states are looked at first by going straight ahead, which is quick on most roads.
+    """
     if len(state.world.avs) > 1:
         return least_ticks(state, patience, ego, gone) is not None
     if state.world.outcome is not Outcome.RUNNING:
@@ -112,6 +132,8 @@ def can_arrive(
     if not state.config.reacting or not _passable(forecast):
         return False
     search = ReactiveSearch(state.world, state.config, forecast, patience)
+    if states_ahead and finds_way_ahead(search, limit, states_ahead):
+        return True
     return search.least_ticks(limit) is not None
 
 

@@ -19,10 +19,10 @@ from sim.world import World
 
 
 class UndeterminedError(ImpatientError):
-    """No answer: it hangs on what other egos do, or on movers that react to them.
+    """No answer: it hangs on what other egos do, on movers that react to them, or on moves that may slip.
 
     The arguments say which: `drives` and the id of the ego that does, `courtesy` where a mover may give way
-    to one that stays, `hit` where a mover runs into one.
+    to one that stays, `hit` where a mover runs into one, `slips`.
     """
 
 

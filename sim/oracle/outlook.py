@@ -25,6 +25,9 @@ from sim.types import Outcome, is_ego
 STATES: Final = 1_500
 """States that are searched for a way where movers react; a tenth of a second."""
 
+STATES_AHEAD: Final = 100
+"""States that are looked at before that by going straight ahead: mostly a fraction of a millisecond."""
+
 STATES_WITHOUT: Final = 300
 """The same for each look at the road without some things."""
 
@@ -85,7 +88,7 @@ def outlook(state: SimState, *, ego: str | None = None) -> Outlook | None:
     if quickly_open(state):
         return OPEN
     try:
-        if can_arrive(state, STATES, ego):
+        if can_arrive(state, STATES, ego, states_ahead=STATES_AHEAD):
             return OPEN
     except ImpatientError:
         return None

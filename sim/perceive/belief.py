@@ -97,7 +97,7 @@ def density(config: Config, kind: Kind) -> float:
     if kind is Kind.BARRIER and has_barriers(config.layout):
         return LAYOUT_BARRIERS
     if count is None and kind is Kind.VEHICLE:
-        count = vehicles_on_average(config.layout, config.columns, config.rows, config.spawn_probability)
+        count = vehicles_on_average(config.layout, config.columns, config.rows, config.vehicle_probability)
     elif count is None:
         count = rows * getattr(config, KINDS[kind].probability or "", 0.0)
     return max(2 * LEAST_PRIOR, count / (rows * config.columns))

@@ -214,11 +214,27 @@ class _Names:
         return kind is (boards.fixed_kind(cell) if fixed else boards.mover_kind(cell))
 
 
+def _perceive_late(
+    world: World, config: Config, ego: int, belief: GridBelief, suite: tuple[SensorSpec, ...]
+) -> tuple[Percept, Belief]:
+    """What is believed without the looks of this tick, and the belief with them, for the next one.
+
+    In arrays: the kernel weighs looks before it shows anything. The first looks of an episode, before which
+    the vehicle has stood, are known at once; without a belief from tick to tick no look is ever late.
+    """
+    expected = gather(world, config, ego, belief, ())
+    percept, _ = show(world, config, ego, belief, expected)
+    _, after = show(world, config, ego, belief, gather(world, config, ego, belief, suite))
+    return percept, after
+
+
 def perceive_grid(
     world: World, config: Config, ego: int, belief: Belief, suite: tuple[SensorSpec, ...], remembers: bool
 ) -> tuple[Percept, Belief]:
     """What a suite of devices shows; with `remembers` false, of this tick's looks alone."""
     before = belief if remembers else NO_BELIEF
+    if config.sensor_latency and isinstance(before, GridBelief):
+        return _perceive_late(world, config, ego, before, suite)
     if kernel.ready():
         known = before if isinstance(before, GridBelief) else None
         percept, after = kernel.sense_tick(world, config, ego, known, suite)

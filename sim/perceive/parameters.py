@@ -6,8 +6,8 @@ Detection of a thing of a kind at a distance d (m) in one look has the probabili
 
 inside the range and the field of view, and 0 elsewhere or behind a body that occludes it. The peak factors
 are those of the weather and of the time of day; the reach factor is the smaller one of the two. One look
-takes one tick. Latency is left out: 50 to 150 ms of exposure and processing are less than the tick of 0.5 s
-(a judgement).
+takes one tick. By default nothing is late: 50 to 150 ms of exposure and processing are less than the tick of
+0.5 s (a judgement). `Config.sensor_latency` makes it a tick.
 
 Published figures that bound values here:
 

@@ -118,7 +118,8 @@ def check_apart(
 
     Always ends and returns a report, whatever the planner does.
     """
-    from sim.plan.sandbox.worker import NoAnswerError, Worker
+    from sim.plan.sandbox.planner_process import NoAnswerError
+    from sim.plan.sandbox.worker import Worker
 
     until = time.monotonic() + seconds
     worker = Worker(name, installed()[name].value, memory=None)

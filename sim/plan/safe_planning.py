@@ -49,7 +49,7 @@ def plan_safely(percept: Percept, config: Config) -> tuple[Forecast, Decision]:
 def plan_answered(answered: Callable[[], Answer], percept: Percept, config: Config) -> Decision:
     """What an answer of another package's planner comes to, or that there is none."""
     from sim.plan.sandbox.answer import FaultError, decision_of
-    from sim.plan.sandbox.worker import NoAnswerError
+    from sim.plan.sandbox.planner_process import NoAnswerError
 
     try:
         return decision_of(answered(), percept, config)

@@ -6,6 +6,7 @@ Importing this package does not import pygame; drawing does.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from os import environ
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
     from sim.plan import Decision
     from sim.state import SimState
+    from sim.types import Cell
     from sim.world import World
 
 VIEWS = ("road", "schematic")
@@ -52,13 +54,17 @@ def render(
     size: tuple[int, int] | None = None,
     ego: str | None = None,
     look: Look = PLAIN,
+    trail: Sequence[Cell] = (),
+    coming: Decision | None = None,
 ) -> pygame.Surface:
     """Draws a state in one of the `VIEWS`.
 
     `before` is the world one tick earlier: things glide from it to the present as `phase` goes from 0 to 1.
     `decision` is the decision taken in `before`. `ego`: the one that the road view follows, the first by
-    default. `look`: its colours and marks. `size` is the largest (width, height) in pixels; the picture
-    keeps its aspect ratio. Raises `ValueError` for an unknown view and for a size out of range.
+    default. `look`: its colours and marks. `trail`: cells that the ego came through, the oldest first.
+    `coming`: the decision that the state leads to, for a picture in which nothing moves. `size` is the
+    largest (width, height) in pixels; the picture keeps its aspect ratio. Raises `ValueError` for an unknown
+    view and for a size out of range.
     """
     environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from sim.render.road_view import draw_road
@@ -67,7 +73,7 @@ def render(
     if size is not None and not all(MIN_SIDE_PX <= side <= MAX_SIDE_PX for side in size):
         raise ValueError(f"the sides of a picture are {MIN_SIDE_PX} to {MAX_SIDE_PX} pixels, not {size}")
     if view == "road":
-        return draw_road(state, before, decision, phase, size, ego, look)
+        return draw_road(state, before, decision, phase, size, ego, look, trail, coming)
     if view == "schematic":
         return draw_schematic(state, size)
     raise ValueError(f"there is no view called {view!r}; there are {', '.join(VIEWS)}")

@@ -9,7 +9,7 @@ from io import BytesIO
 from typing import Any, Final
 
 import pygame
-from PIL import Image
+from PIL import Image, ImageFile
 
 _ENCODER_OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "png": {"compress_level": 3},
@@ -17,6 +17,11 @@ _ENCODER_OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "webp": {"quality": 80, "method": 0},
 }
 """Encoder options by format; fast rather than small, since a picture of a stream is shown for 16 ms."""
+
+
+ImageFile.MAXBLOCK = 4_096
+"""Bytes that Pillow's encoder makes in one call, in which no other thread of the process goes on: 64 kB, its
+default, is a whole picture, which takes tens of milliseconds."""
 
 
 def encode_image(picture: pygame.Surface, form: str) -> bytes:

@@ -1,4 +1,4 @@
-"""How the road view is drawn: by day colours or dark ones, with or without boxes and figures."""
+"""How the road view is drawn: its colours, and whether with boxes, figures, path and forecast."""
 
 from __future__ import annotations
 
@@ -16,7 +16,11 @@ class Look:
     boxes: bool = True
     """Bounding boxes around what moves."""
     figures: bool = True
-    """The strip of figures along the upper edge."""
+    """The strip of figures along the upper edge, and the result across the middle."""
+    path: bool = True
+    """The way behind the ego, its move under way and, while nothing moves, its next one."""
+    forecast: bool = False
+    """Where movers are expected in the next ticks."""
 
 
 PLAIN = Look()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import cos, pi, sin
 
 import pygame
@@ -11,6 +12,14 @@ from sim.render import theme
 from sim.render.camera import Camera, camera_on
 from sim.render.ground import draw_ground
 from sim.render.hud import draw_figures, draw_verdict
+from sim.render.intent import (
+    draw_forecast,
+    draw_intent,
+    draw_next,
+    draw_trail,
+    expected_cells,
+    movers,
+)
 from sim.render.look import PLAIN, Look
 from sim.render.motion import Pose, glide_start, poses
 from sim.render.sensed_marks import draw_marks, marks_of
@@ -19,7 +28,7 @@ from sim.render.text import render_text
 from sim.render.weather import draw_weather
 from sim.rules.collision_geometry import SIZES
 from sim.state import SimState
-from sim.types import Kind, Outcome
+from sim.types import Cell, Kind, Outcome
 from sim.world import World
 
 BOX_FROM_PX = 48
@@ -36,6 +45,8 @@ def draw_road(
     size: tuple[int, int] | None,
     ego: str | None = None,
     look: Look = PLAIN,
+    trail: Sequence[Cell] = (),
+    coming: Decision | None = None,
 ) -> pygame.Surface:
     """See `sim.render.render`."""
     world, number = state.world, state.number(ego)
@@ -44,13 +55,21 @@ def draw_road(
     camera = camera_on(state.config, seen.av.row, size)
     picture = pygame.Surface(camera.size)
     draw_ground(picture, camera, state.config.rows, light=look.theme == "light")
-    shown = (pose for pose in seen.things if camera.sees(pose.row))
+    shown = [pose for pose in seen.things if camera.sees(pose.row)]
+    running = world.outcome is Outcome.RUNNING
     if seen.touch is not None:
         _draw_impact(picture, camera, seen.touch)
+    if look.path:
+        draw_trail(picture, camera, trail)
+        if running and decision is not None and seen.share < 1.0:
+            at, to = (seen.av.column, seen.av.row), seen.av.thing.cell
+            draw_intent(picture, camera, at, to, decision.move, seen.share)
+        elif running and coming is not None:
+            draw_next(picture, camera, seen.av.thing.cell, coming.move)
+    if look.forecast and running:
+        draw_forecast(picture, camera, movers(shown), expected_cells(state, ego))
     for pose in shown:
         _draw_thing(picture, camera, pose, boxes=look.boxes)
-    if decision is not None and world.outcome is Outcome.RUNNING:
-        _draw_move(picture, camera, start, decision, seen.share)
     _blit(picture, av_sprite(camera.cell_px, number), camera.centre(seen.av.column, seen.av.row))
     if look.boxes:
         _draw_box(picture, camera, seen.av, theme.colour_of_ego(number))
@@ -62,7 +81,7 @@ def draw_road(
     draw_marks(picture, camera, marks_of(state, ego))
     if look.figures:
         draw_figures(picture, state, camera.cell_px, ego=ego)
-    draw_verdict(picture, state, camera.cell_px)
+        draw_verdict(picture, state, camera.cell_px)
     return picture
 
 
@@ -108,25 +127,6 @@ def _draw_impact(picture: pygame.Surface, camera: Camera, touch: tuple[float, fl
             radius = camera.cell_px * 0.5 * share * (1 - 0.12 * (n * 5 % 3) if n % 2 == 0 else 0.58)
             points.append((x + radius * cos(pi * n / 12), y + radius * sin(pi * n / 12)))
         pygame.draw.polygon(picture, colour, points)
-
-
-def _draw_move(
-    picture: pygame.Surface, camera: Camera, before: World, decision: Decision, share: float
-) -> None:
-    """Draws an arrow along the chosen move, which fades as the move is done."""
-    columns, rows = decision.move.offset
-    if (columns, rows) == (0, 0) or share >= 1.0:
-        return
-    column, row = before.road.cell(before.avs[int(decision.av.rpartition("-")[2]) - 1])
-    start, end = camera.centre(column, row), camera.centre(column + columns, row + rows)
-    tip = camera.cell_px // 8
-    room = pygame.Rect(start, (1, 1)).union(pygame.Rect(end, (1, 1))).inflate(2 * tip, 2 * tip)
-    layer = pygame.Surface(room.size, pygame.SRCALPHA)
-    corner = pygame.Vector2(room.topleft)
-    colour = (*theme.MOVE, int(230 * (1 - share)))
-    pygame.draw.line(layer, colour, start - corner, end - corner, max(3, camera.cell_px // 14))
-    pygame.draw.circle(layer, colour, end - corner, tip)
-    picture.blit(layer, room)
 
 
 def _blit(picture: pygame.Surface, sprite: pygame.Surface, centre: tuple[int, int]) -> None:

@@ -55,6 +55,12 @@ RIM: Final[Colour] = (92, 96, 104)
 IMPACT: Final[tuple[Colour, Colour, Colour]] = ((240, 84, 78), (250, 176, 72), (255, 244, 214))
 BOX: Final[Colour] = (204, 208, 214)
 MOVE: Final[Colour] = (96, 220, 140)
+UNDER_WAY: Final[Colour] = (110, 163, 255)
+"""the move that is being made, and the way behind it"""
+NEXT: Final[Colour] = (95, 224, 160)
+WAIT: Final[Colour] = (240, 84, 78)
+EXPECTED: Final[dict[str, Colour]] = {"vehicle": (255, 162, 155), "pedestrian": (127, 224, 189)}
+"""movers where they are expected"""
 
 PANEL: Final = (18, 20, 24, 205)
 TEXT: Final[Colour] = (236, 238, 242)

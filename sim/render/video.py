@@ -19,6 +19,7 @@ from sim.plan import Decision
 from sim.render import pixels, render
 from sim.render.look import PLAIN, Look
 from sim.state import SimState
+from sim.types import Cell
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 VIDEO_FORMATS: Final = ("gif", "mp4")
 FPS: Final = {"gif": 50, "mp4": 60}
 """Most frames a second. GIF frames last whole hundredths of a second, and players slow down below two."""
+TRAIL_LIMIT: Final = 13
+"""Cells of the way behind the ego that a frame has."""
 _COLOURS: Final = 128
 _SAMPLES: Final = 8
 """Number of pictures that the palette of a GIF is made from."""
@@ -51,6 +54,8 @@ class Frame:
     before: SimState
     after: SimState
     phase: float
+    trail: tuple[Cell, ...] = ()
+    """cells that the first ego came through in its episode, the oldest first"""
 
 
 def has_video() -> bool:
@@ -67,12 +72,22 @@ def video_frames(runs: Sequence[SimState], fps: float) -> Iterator[Frame]:
     """Lists the frames of consecutive states: the first state, then a frame every 1/fps seconds."""
     yield Frame(runs[0], runs[0], 1.0)
     start_s, shown = 0.0, 0
+    trail: tuple[Cell, ...] = ()
     for before, after in pairwise(runs):
         step_s = before.config.step_seconds
+        trail = trail_after(trail, before, after)
         while shown < _whole_frames(start_s + step_s, fps):
             shown += 1
-            yield Frame(before, after, min(1.0, (shown / fps - start_s) / step_s))
+            yield Frame(before, after, min(1.0, (shown / fps - start_s) / step_s), trail)
         start_s += step_s
+
+
+def trail_after(trail: tuple[Cell, ...], before: SimState, after: SimState) -> tuple[Cell, ...]:
+    """The cells behind the first ego once a state has led to the next; empty on a new road."""
+    if before.world.episode_start != after.world.episode_start:
+        return ()
+    cell = before.world.road.cell(before.world.avs[0])
+    return trail if trail[-1:] == (cell,) else (*trail, cell)[-TRAIL_LIMIT:]
 
 
 def render_video(
@@ -122,6 +137,7 @@ def _render_frame(
             phase=frame.phase,
             size=size,
             look=look,
+            trail=frame.trail,
         )
         return fromarray(pixels(drawn))
 

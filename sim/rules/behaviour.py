@@ -144,8 +144,8 @@ class SidewaysTraffic(Behaviour):
         return _reactions((yielding_movers(world, config, near), attentive_movers(world, config, near)))
 
     def possible_reactions(self, world: World, config: Config) -> list[tuple[Reactions, float]]:
-        """See `Behaviour`: every set of the movers beside a vehicle, each drawn by itself."""
-        near = movers_beside(world)
+        """See `Behaviour`: every set of the movers beside a vehicle in its row, each drawn by itself."""
+        near = movers_beside(world) & _rows_of_vehicles(world)
         return [
             (Reactions(giving, braking), chance * other)
             for (giving, chance), (braking, other) in product(
@@ -159,6 +159,14 @@ class SidewaysTraffic(Behaviour):
         shares = {"courtesy": _share(drawn.yielding, near), "attentive": _share(drawn.attentive, near)}
         tried = (_with_shares(config, **shares, seed=seed) for seed in count())
         return next(each for each in tried if self.reactions(world, each) == drawn)
+
+
+def _rows_of_vehicles(world: World) -> Board:
+    """All cells of the rows with a vehicle. A mover beside one across the edge has nothing to react to."""
+    road, cells = world.road, 0
+    for cell in world.avs:
+        cells |= road.row(cell // road.columns)
+    return cells
 
 
 def _subsets(near: Board, share: float) -> Iterator[tuple[Board, float]]:

@@ -121,7 +121,7 @@ class ReactiveSearch:
                 for before, columns in layers[ahead].items()
                 if 0 <= before.number - row.number <= rows_a_tick
                 for start in bits(columns)
-                for index, there, end in self._steps(before, start, ahead)
+                for index, there, end in self.steps(before, start, ahead)
                 if there == row and end == column
             )
             moves.append(move)
@@ -144,10 +144,9 @@ class ReactiveSearch:
     def _layers_within(self, limit: int) -> list[Layer] | None:
         """`_layers`, each of so many ticks looked for at once."""
         world = self.world
-        number, column = divmod(world.av, world.road.columns)
-        first = self._row(number, world.right, world.left, _marked(world.boards))
+        first, column = self.start()
         layers: list[Layer] = [{first: 1 << column}]
-        if number == 0:
+        if first.number == 0:
             return layers
         # Nearly all states are too late, or shut off whoever reacts.
         hopeful = cells_that_may_arrive(self.forecast, limit)
@@ -162,7 +161,7 @@ class ReactiveSearch:
                     raise ImpatientError
             for row, columns in layers[-1].items():
                 for start in bits(columns):
-                    for _, there, end in self._steps(row, start, ahead):
+                    for _, there, end in self.steps(row, start, ahead):
                         after[there] = after.get(there, 0) | 1 << end
             after = self._kept(after, hopeful[ahead + 1])
             layers.append(after)
@@ -172,13 +171,19 @@ class ReactiveSearch:
                 return None
         return None
 
+    def start(self) -> tuple[Row, int]:
+        """The row that the ego is in, and its column."""
+        world = self.world
+        number, column = divmod(world.av, world.road.columns)
+        return self._row(number, world.right, world.left, _marked(world.boards)), column
+
     def _kept(self, layer: Layer, hopeful: Board) -> Layer:
         """The states of a layer from which the goal may still be reached."""
         columns = self.world.road.columns
         kept = {row: there & hopeful >> row.number * columns for row, there in layer.items()}
         return {row: there for row, there in kept.items() if there}
 
-    def _steps(self, row: Row, column: int, ahead: int) -> Iterator[tuple[int, Row, int]]:
+    def steps(self, row: Row, column: int, ahead: int) -> Iterator[tuple[int, Row, int]]:
         """The moves that meet nothing: place in `Move`, the row after it, and the column."""
         own, columns = row.number, self.world.road.columns
         if ahead != self._ahead:

@@ -5,10 +5,12 @@ Distances are those of the scene: the larger of the lanes and the rows between t
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from sim.actions import Condition
 from sim.session.locate import lane_columns
 from sim.state import SimState
-from sim.types import Kind, Outcome
+from sim.types import Cell, Kind, Outcome
 from sim.world import World
 
 ENDS = {"crash": Outcome.CRASH, "arrival": Outcome.SUCCESS, "stuck": Outcome.STUCK}
@@ -16,6 +18,9 @@ ENDS = {"crash": Outcome.CRASH, "arrival": Outcome.SUCCESS, "stuck": Outcome.STU
 
 MOMENTS = frozenset((*ENDS, "episode", "every", "after", "tick"))
 """Facts that hold in single ticks; the others hold for as long as they are so."""
+
+SETTINGS = frozenset(("weather", "time_of_day"))
+"""Facts about the configuration: they outlast episodes."""
 
 
 def holds(condition: Condition, before: SimState, after: SimState, since: int) -> bool:
@@ -45,6 +50,9 @@ def has_just_ended(state: SimState, end: str) -> bool:
 
 def is_so(condition: Condition, state: SimState) -> bool:
     """Whether a condition about the road holds in a state; events and times hold in none."""
+    if condition.fact in SETTINGS:
+        said = getattr(state.config, condition.fact) == getattr(condition, condition.fact)
+        return said is not bool(condition.no_longer)
     if condition.fact in MOMENTS or state.world.outcome is not Outcome.RUNNING:
         return False
     world = state.world
@@ -53,7 +61,10 @@ def is_so(condition: Condition, state: SimState) -> bool:
         case "row":
             return condition.row is not None and row <= condition.row
         case "lane":
-            return condition.lane is not None and column in lane_columns(world.road, condition.lane)
+            there = condition.lane is not None and column in lane_columns(world.road, condition.lane)
+            return there is not bool(condition.no_longer)
+        case "goal":
+            return _is_close(condition, row * state.config.cell_m)
         case "count":
             count = world.count(Kind(condition.kind)) if condition.kind is not None else 0
             low, high = condition.at_least, condition.at_most
@@ -70,18 +81,24 @@ def _ticks(condition: Condition, state: SimState) -> int:
 
 
 def _is_near(condition: Condition, world: World, cell_m: float) -> bool:
-    away_m = nearest_m(world, None if condition.kind is None else Kind(condition.kind), cell_m)
+    kind = None if condition.kind is None else Kind(condition.kind)
+    away_m = nearest_m(world, kind, cell_m, condition.side)
     if condition.farther_than_m is not None:
         return away_m is None or away_m > condition.farther_than_m
-    if away_m is None:
-        return False
+    return away_m is not None and _is_close(condition, away_m)
+
+
+def _is_close(condition: Condition, away_m: float) -> bool:
     if condition.within_m is not None:
         return away_m <= condition.within_m
     return condition.closer_than_m is not None and away_m < condition.closer_than_m
 
 
-def nearest_m(world: World, kind: Kind | None, cell_m: float) -> float | None:
-    """Metres from the first ego to the nearest thing of a kind, or of any; None where there is none."""
+def nearest_m(world: World, kind: Kind | None, cell_m: float, side: str | None = None) -> float | None:
+    """Metres from the first ego to the nearest thing of a kind, or of any; None where there is none.
+
+    `side`: "ahead" or "behind", where only things in its column and on that side of it count.
+    """
     road = world.road
     column, row = road.cell(world.avs[0])
     cells = [*world.movers, *world.hazards] if kind is None else []
@@ -89,6 +106,8 @@ def nearest_m(world: World, kind: Kind | None, cell_m: float) -> float | None:
         cells = [cell for cell in (*world.movers, *world.hazards) if world.board(kind) >> cell & 1]
     if kind in (None, Kind.AV):
         cells += world.avs[1:]
-    places = map(road.cell, cells)
+    places: Iterable[Cell] = map(road.cell, cells)
+    if side is not None:
+        places = [(c, r) for c, r in places if c == column and (r < row if side == "ahead" else r > row)]
     away = min((max(abs(c - column), abs(r - row)) for c, r in places), default=None)
     return None if away is None else away * cell_m

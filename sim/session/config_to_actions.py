@@ -30,6 +30,9 @@ _SET_AFTER = (
     "sensor_range_m",
     "sensor_noise",
     "false_positive_rate",
+    "sensor_latency",
+    "slip_probability",
+    "traffic_by_hour",
 )
 
 

@@ -44,6 +44,9 @@ _LATER = {
     "sensor_range_m",
     "sensor_noise",
     "false_positive_rate",
+    "sensor_latency",
+    "slip_probability",
+    "traffic_by_hour",
 }
 """Fields of configurations that came later; where one is missing, it is at its default."""
 _ALWAYS = {*_CONFIG} - _LATER

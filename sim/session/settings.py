@@ -19,7 +19,9 @@ from sim.types import KINDS, Kind
 from sim.world.layouts import vehicles_on_average
 
 NEEDS_A_NEW_ROAD: Final = frozenset(("columns", "rows", "seed"))
-FROM_THE_NEXT_ROAD: Final = frozenset(("spawn_probability", "pothole_probability", "traffic"))
+FROM_THE_NEXT_ROAD: Final = frozenset(
+    ("spawn_probability", "pothole_probability", "traffic", "traffic_by_hour")
+)
 STEPS: Final[dict[str, float]] = {
     "spawn_probability": 0.1,
     "pothole_probability": 0.05,
@@ -30,6 +32,9 @@ STEPS: Final[dict[str, float]] = {
     "sensor_range_m": 10,
     "sensor_noise": 0.05,
     "false_positive_rate": 0.05,
+    "sensor_latency": 1,
+    "slip_probability": 0.05,
+    "traffic_by_hour": 0.25,
     "step_seconds": 0.1,
     "columns": 1,
     "rows": 5,
@@ -96,7 +101,7 @@ def add_preference(config: Config, wish: Wish) -> Config:
 
 def vehicles_for(config: Config) -> int:
     """How many obstacle vehicles a road of this traffic has on average."""
-    return round(vehicles_on_average(config.layout, config.columns, config.rows, config.spawn_probability))
+    return round(vehicles_on_average(config.layout, config.columns, config.rows, config.vehicle_probability))
 
 
 def _adjusted_value(config: Config, action: Adjust) -> object:

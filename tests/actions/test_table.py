@@ -84,6 +84,8 @@ NAMING: dict[str, tuple[str, ...]] = {
     "outlook": ("safe", "move"),
     "blame": ("fault", "tick"),
     "planners": ("here", "planners"),
+    "sight": ("range",),
+    "world": ("pace",),
 }
 """Of a question of several about the same, one, and what it names."""
 
@@ -125,6 +127,8 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         del named["count"]
     if about == "what_if":  # a move in the past, or a change
         del named["move"]
+    if about == "outlook":  # seconds and ticks belong to what comes next
+        named.pop("ticks", None)
     (asked,) = load([{"do": "ask", "about": about, **named}])
     assert isinstance(asked, Ask)
     assert traits_of(asked).is_question
@@ -143,6 +147,8 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         ({"about": "what_if", "move": "left"}, True),
         ({"about": "what_if"}, False),
         ({"about": "what_if", "move": "left", "change": [{"do": "pause"}]}, False),
+        ({"about": "what_if", "change": [{"do": "drive", "move": "stay"}], "count": 5}, True),
+        ({"about": "what_if", "move": "left", "count": 5}, False),
         ({"about": "why", "tick": 3, "ticks": 3}, False),
         ({"about": "why", "ticks": 3, "seconds": 3.0}, False),
         ({"about": "other", "what": "why", "which": {"nearest": True}}, False),
@@ -182,6 +188,15 @@ def test_what_contradicts_itself_is_no_question(keys: dict[str, object], fits: b
         ({"what": "character", "about": "planners", "planners": ["astar"]}, False),
         ({"what": "own", "about": "planners", "tick": 3}, True),
         ({"what": "summary", "about": "blame"}, False),
+        ({"what": "weather", "about": "sight"}, True),
+        ({"what": "coming", "about": "outlook", "ticks": 3}, True),
+        ({"what": "coming", "about": "outlook", "seconds": 1.5}, True),
+        ({"what": "coming", "about": "outlook"}, False),
+        ({"what": "risk", "about": "outlook", "ticks": 3}, False),
+        ({"what": "since", "seconds": 1.5}, True),
+        ({"what": "waited", "tick": 3}, False),
+        ({"what": "runner_up", "tick": 3}, True),
+        ({"what": "pace", "about": "sight"}, False),
     ],
 )
 def test_questions_name_what_they_need_and_nothing_more(keys: dict[str, object], fits: bool) -> None:

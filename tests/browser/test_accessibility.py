@@ -143,3 +143,16 @@ def test_every_control_can_be_reached_and_is_seen_to_be(visit: Visit) -> None:
     else:
         raise AssertionError(f"no way round: {stops[-3:]}")
     assert len(stops) >= 12
+
+
+@pytest.mark.parametrize("locale", ["en-GB", "de-DE"])
+def test_what_can_be_said_stands_under_headings_that_people_read(visit: Visit, locale: str) -> None:
+    visitor = visit("/", locale=locale)
+    visitor.page.locator("#help").click()
+    expect(visitor.page.locator(".help-intent").nth(9)).to_be_visible()
+    texts = visitor.page.evaluate("async () => await globalThis.pageTexts")
+    known = {text for key, text in texts.items() if key.startswith("help.headings.")}
+    found = visitor.page.locator(".help-intent h3").all_inner_texts()
+    assert len(found) == len(set(found))
+    assert set(found) <= known | {texts["help.taught"]}
+    assert texts["help.headings.more"] not in found, "a kind of sentence has no heading"

@@ -138,6 +138,53 @@ def test_parts_are_shown_and_hidden_by_sentence_on_every_page_that_watches(visit
     expect(refused.locator(".reply")).to_contain_text("not available yet")
 
 
+def test_the_road_is_seen_in_perspective_by_key_menu_and_sentence(visit: Visit) -> None:
+    visitor = visit()
+    flat = visitor.settled()
+    visitor.page.locator("body").click(position={"x": 720, "y": 20})
+    visitor.page.keyboard.press("d")
+    deep = visitor.settled(unlike=flat)
+    visitor.page.get_by_role("button", name="Views").click()
+    entry = visitor.page.get_by_role("menuitemcheckbox", name="Perspective")
+    expect(entry).to_have_attribute("aria-checked", "true")
+    entry.click()
+    visitor.settled(like=flat)
+    visitor.page.keyboard.press("Escape")
+    visitor.say("3D view")
+    visitor.settled(like=deep)
+    visitor.page.reload()
+    visitor.wait_live()
+    visitor.settled(like=deep)
+    visitor.say("view from above")
+    visitor.settled(like=flat)
+    visitor.say("switch the renderer")
+    expect(visitor.page.locator(".service-canvas")).to_be_visible()
+    visitor.say("perspective on")
+    expect(visitor.page.locator(".service-canvas")).to_be_hidden()
+
+
+def test_things_are_pointed_at_and_placed_in_perspective(visit: Visit) -> None:
+    visitor = visit()
+    column, row = cleared(visitor)
+    visitor.say("perspective")
+    visitor.page.locator("body").click(position={"x": 720, "y": 20})
+    visitor.settled()
+    visitor.page.keyboard.press("g")
+    visitor.page.keyboard.press("b")
+    expect(visitor.page.locator("#road .road-canvas")).to_have_attribute(
+        "aria-label", re.compile("1 barrier")
+    )
+    (barrier,) = visitor.script.state()["hazards"]
+    assert barrier["cell"] == [column, row - 2]
+    mark = visitor.page.locator(".cell-cursor").bounding_box()
+    road = visitor.page.locator("#road").bounding_box()
+    assert mark is not None
+    assert road is not None
+    visitor.page.mouse.move(mark["x"] + mark["width"] / 2, mark["y"] + mark["height"] / 2)
+    expect(visitor.page.locator("#bubble")).to_contain_text(re.compile("barrier", re.IGNORECASE))
+    assert road["y"] < mark["y"] < road["y"] + road["height"]
+
+
 def test_the_plan_tells_the_next_move_and_why_not_the_others(visit: Visit) -> None:
     visitor = visit()
     column, row = cleared(visitor)

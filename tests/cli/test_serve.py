@@ -109,9 +109,10 @@ async def test_what_hangs_is_left_and_what_fails_is_told() -> None:
     [
         (["--host", "0.0.0.0"], {}, "ROADTALK_API_KEY"),
         (["--host", "::"], {"ROADTALK_API_KEY": ""}, "ROADTALK_API_KEY"),
-        (["--workers", "2"], {}, "one process"),
-        ([], {"WEB_CONCURRENCY": "4"}, "one process"),
-        ([], {"ROADTALK_WORKERS": "4"}, "one process"),
+        (["--workers", "2"], {}, "PostgreSQL"),
+        ([], {"WEB_CONCURRENCY": "4"}, "PostgreSQL"),
+        ([], {"ROADTALK_RAY_ADDRESS": "auto"}, "PostgreSQL"),
+        (["--workers", "0"], {}, "workers"),
     ],
 )
 def test_it_says_in_one_line_why_it_does_not_start(

@@ -165,7 +165,7 @@ def test_an_id_that_is_a_path_reaches_nothing(client: Client) -> None:
             client.session(name).state()
 
 
-async def test_the_same_awaited(inside: AsyncClient) -> None:
+async def test_the_same_awaited(inside: AsyncClient, monkeypatch: pytest.MonkeyPatch) -> None:
     session = await inside.create(seed=11, paused=True)
     assert (await session.info()).id == session.id
     assert (await inside.list()).items[0].id == session.id
@@ -198,6 +198,12 @@ async def test_the_same_awaited(inside: AsyncClient) -> None:
     recording = await session.recording()
     assert isinstance(recording, Recording)
     assert (await inside.health()).sessions == 3
+    monkeypatch.setattr("service.http.prefer.LONG_UNITS", 0)
+    shares: list[float] = []
+    film = await session.film(0, 2, side=64, progress=shares.append)
+    assert film.data[:4] == b"GIF8"
+    assert shares[0] == 0.0
+    assert (await session.regret()).items
     assert (await session.frame()).data[1:4] == b"PNG"
     await session.delete()
     with pytest.raises(UnknownSession):
@@ -216,3 +222,17 @@ def test_both_clients_offer_the_same(waits: type, awaited: type) -> None:
 
     assert offered(waits) == offered(awaited)
     assert len(offered(waits)) > 4
+
+
+def test_what_was_placed_by_hand_is_told_by_lane_and_row_as_in_replies(client: Client) -> None:
+    session = client.create(seed=9, paused=True)
+    session.act({"do": "remove", "kind": "everything", "count": "all"})
+    put = {"do": "add", "kind": "pothole", "count": 1, "where": {"cell": [4, 13]}}
+    assert "lane 5" in session.act(put).reply
+    (pothole,) = session.state().hazards
+    where = {"where": {"id": pothole.id}, "to": {"cell": [0, 7]}}
+    session.act({"do": "move", "kind": "pothole", "count": 1, **where})
+    *_, added, moved = [change.text for change in session.changes().items]
+    assert added == "add 1 pothole in lane 5 in row 13"
+    assert "lane 1" in moved
+    assert "row 7" in moved

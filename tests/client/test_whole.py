@@ -29,6 +29,7 @@ ELSEWHERE = {
 VALUES = {
     "session": "SESSION",
     "evaluation": "EVALUATION",
+    "answer": "ANSWER",
     "tick": 7,
     "parts": {"traffic": "heavy"},
     "recording": {"format": "x"},
@@ -59,6 +60,7 @@ CALLS = dict(made())
 def template(call: Call[Any]) -> tuple[str, str]:
     """As the document writes it."""
     path = call.path.replace("SESSION", "{session_id}").replace("EVALUATION", "{evaluation_id}")
+    path = path.replace("ANSWER", "{answer_id}")
     return call.method, path.replace("/decisions/7", "/decisions/{tick}")
 
 

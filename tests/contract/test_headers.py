@@ -120,7 +120,7 @@ async def test_the_same_key_is_the_same_answer_and_done_once(
 ) -> None:
     identity = await new_session(client)
     target, headers = (
-        path.format(evaluation_id="e", session_id=identity),
+        path.format(answer_id="e", evaluation_id="e", session_id=identity),
         {"Idempotency-Key": f"{method}{path}{identity}"},
     )
     first = await client.request(method, target, json=body_of(operation), headers=headers)
@@ -141,7 +141,7 @@ async def test_a_key_is_one_requests_own(
 ) -> None:
     identity = await new_session(client)
     target, headers = (
-        path.format(evaluation_id="e", session_id=identity),
+        path.format(answer_id="e", evaluation_id="e", session_id=identity),
         {"Idempotency-Key": f"own{method}{path}{identity}"},
     )
     await client.request(method, target, json=body_of(operation), headers=headers)
@@ -158,7 +158,7 @@ async def test_a_key_is_one_requests_own(
 async def test_what_is_no_key_is_refused(
     client: httpx.AsyncClient, method: str, path: str, operation: Json, key: str
 ) -> None:
-    target = path.format(evaluation_id="e", session_id=await new_session(client))
+    target = path.format(answer_id="e", evaluation_id="e", session_id=await new_session(client))
     headers = {"Idempotency-Key": key}
     refused = await client.request(method, target, json=body_of(operation), headers=headers)
     assert problem(refused, 422, "invalid")["errors"][0]["field"] == "Idempotency-Key"
@@ -169,7 +169,10 @@ async def test_a_stale_tag_holds_back_everything(
     client: httpx.AsyncClient, method: str, path: str, operation: Json
 ) -> None:
     identity = await new_session(client)
-    target, before = path.format(evaluation_id="e", session_id=identity), await standing(client, identity)
+    target, before = (
+        path.format(answer_id="e", evaluation_id="e", session_id=identity),
+        await standing(client, identity),
+    )
     for stale in ('"0"', '"99"', 'W/"1"', '"another"'):
         headers = {"If-Match": stale}
         refused = await client.request(method, target, json=body_of(operation), headers=headers)
@@ -186,7 +189,7 @@ async def test_what_is_wrong_by_its_form_is_told_before_what_is_stale(
     client: httpx.AsyncClient, method: str, path: str, operation: Json
 ) -> None:
     identity = await new_session(client)
-    target, stale = path.format(evaluation_id="e", session_id=identity), {"If-Match": '"99"'}
+    target, stale = path.format(answer_id="e", evaluation_id="e", session_id=identity), {"If-Match": '"99"'}
     before = await standing(client, identity)
     if "requestBody" in operation:
         bad = {**(body_of(operation) or {}), "surprise": 1}
@@ -202,7 +205,7 @@ async def test_what_is_wrong_by_its_form_is_told_before_what_is_stale(
     no_tag = {"If-Match": "1"}
     refused = await client.request(method, target, json=body_of(operation), headers=no_tag)
     assert problem(refused, 422, "invalid")["errors"][0]["field"] == "If-Match"
-    nobody = path.format(evaluation_id="e", session_id="nobody")
+    nobody = path.format(answer_id="e", evaluation_id="e", session_id="nobody")
     gone = await client.request(method, nobody, json=body_of(operation), headers=stale)
     problem(gone, 404, "unknown-session")
     assert await standing(client, identity) == before
@@ -213,7 +216,10 @@ async def test_a_body_that_is_too_large_or_of_another_kind_is_refused(
     client: httpx.AsyncClient, method: str, path: str, operation: Json
 ) -> None:
     identity = await new_session(client)
-    target, before = path.format(evaluation_id="e", session_id=identity), await standing(client, identity)
+    target, before = (
+        path.format(answer_id="e", evaluation_id="e", session_id=identity),
+        await standing(client, identity),
+    )
     whole = json.dumps(body_of(operation)).encode()
     for kind in (
         "text/plain",
@@ -236,7 +242,7 @@ async def test_a_body_that_is_too_large_or_of_another_kind_is_refused(
 async def test_another_method_is_refused_with_those_there_are(client: httpx.AsyncClient, path: str) -> None:
     identity = await new_session(client)
     target, before = (
-        path.format(evaluation_id="e", session_id=identity, tick=1),
+        path.format(answer_id="e", evaluation_id="e", session_id=identity, tick=1),
         await standing(client, identity),
     )
     for method in METHODS:
@@ -256,7 +262,7 @@ async def test_nobody_makes_more_than_the_quota(method: str, path: str, operatio
     async with httpx.AsyncClient(transport=httpx.ASGITransport(app), base_url="http://localhost") as client:
         identity = await new_session(client)
         before = await standing(client, identity)
-        target = path.format(evaluation_id="e", session_id=identity)
+        target = path.format(answer_id="e", evaluation_id="e", session_id=identity)
         problem(await client.request(method, target, json=body_of(operation)), 429, "over-quota")
         assert await standing(client, identity) == before
         assert "429" in operation["responses"]
@@ -267,9 +273,9 @@ async def test_a_session_names_every_part_of_it(client: httpx.AsyncClient) -> No
     links = (await client.get(f"/api/v1/sessions/{identity}")).json()["links"]
     own = f"/api/v1/sessions/{identity}"
     parts = {
-        path.format(evaluation_id="e", session_id=identity)
+        path.format(answer_id="e", evaluation_id="e", session_id=identity)
         for path in DOCUMENT["paths"]
-        if "{session_id}" in path and "{tick}" not in path
+        if "{session_id}" in path and "{tick}" not in path and "{answer_id}" not in path
     }
     assert parts | {f"{own}/stream", f"/#/s/{identity}"} == set(links.values())
 
@@ -291,3 +297,11 @@ def test_links_of_the_document_lead_somewhere() -> None:
                 assert required - {"tick"} <= set(link.get("parameters", {}))
                 found += 1
     assert found > 40
+
+
+@pytest.mark.parametrize("name", ["read_regret", "read_video"])
+def test_a_long_answer_is_linked_from_the_call_that_makes_it(name: str) -> None:
+    operations = [each for item in DOCUMENT["paths"].values() for each in item.values()]
+    making = next(each for each in operations if each["operationId"] == name)
+    links = making["responses"]["202"]["links"]
+    assert set(links) == {"read_long_answer", "read_long_answer_result", "delete_long_answer"}

@@ -61,7 +61,7 @@ async def test_head_is_get_without_the_body(
     if path == ENDLESS:
         return  # below
     assert (method, bool(operation)) == ("get", True)
-    address = path.format(evaluation_id="e", session_id=identity, tick=2)
+    address = path.format(answer_id="e", evaluation_id="e", session_id=identity, tick=2)
     got, head = await client.get(address), await client.head(address)
     assert (head.status_code, head.content) == (got.status_code, b"")
     if path not in ("/metrics", "/healthz"):  # which tell of what was just asked
@@ -100,7 +100,7 @@ async def test_head_is_refused_as_get_is(client: httpx.AsyncClient, identity: st
 async def test_options_and_wrong_methods_tell_what_is_allowed(
     client: httpx.AsyncClient, identity: str, path: str
 ) -> None:
-    address = path.format(evaluation_id="e", session_id=identity, tick=2)
+    address = path.format(answer_id="e", evaluation_id="e", session_id=identity, tick=2)
     methods = {method.upper() for method in DOCUMENT["paths"][path]} | {"OPTIONS"}
     methods |= {"HEAD"} if "GET" in methods else set()
     options = await client.options(address)
@@ -122,7 +122,7 @@ async def test_options_of_what_is_not_there(client: httpx.AsyncClient) -> None:
 async def test_a_parameter_that_a_call_does_not_have_is_refused(
     client: httpx.AsyncClient, identity: str, path: str, method: str, operation: Json
 ) -> None:
-    address = path.format(evaluation_id="e", session_id=identity, tick=2)
+    address = path.format(answer_id="e", evaluation_id="e", session_id=identity, tick=2)
     before = (await client.get(f"/api/v1/sessions/{identity}/state")).content
     answer = await client.request(method, address, params={"surprise": "1"}, **example(operation))
     assert (answer.status_code, answer.json()["type"]) == (422, "/problems/invalid")
@@ -136,7 +136,7 @@ async def test_a_parameter_that_a_call_does_not_have_is_refused(
 async def test_every_parameter_of_the_document_is_known_and_a_slip_is_told(
     client: httpx.AsyncClient, identity: str, path: str, method: str, operation: Json
 ) -> None:
-    address = path.format(evaluation_id="e", session_id=identity, tick=2)
+    address = path.format(answer_id="e", evaluation_id="e", session_id=identity, tick=2)
     for parameter in operation.get("parameters", []):
         if parameter["in"] != "query":
             continue

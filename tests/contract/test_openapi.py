@@ -54,6 +54,9 @@ ROUTES = {
     "GET /api/v1/sessions/{session_id}/moments",
     "GET /api/v1/sessions/{session_id}/frame",
     "GET /api/v1/sessions/{session_id}/film",
+    "GET /api/v1/sessions/{session_id}/answers/{answer_id}",
+    "GET /api/v1/sessions/{session_id}/answers/{answer_id}/result",
+    "DELETE /api/v1/sessions/{session_id}/answers/{answer_id}",
     "POST /api/v1/evaluations",
     "GET /api/v1/evaluations",
     "GET /api/v1/evaluations/{evaluation_id}",
@@ -169,7 +172,7 @@ async def test_every_example_runs(client: httpx.AsyncClient, path: str, operatio
 
 @pytest.mark.parametrize(("path", "method", "operation"), OPERATIONS)
 async def test_answers_have_the_documented_shape(
-    client: httpx.AsyncClient, path: str, method: str, operation: Json
+    client: httpx.AsyncClient, path: str, method: str, operation: Json, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if path.endswith("/events/stream"):
         return  # it has no end; see test_sse
@@ -182,6 +185,9 @@ async def test_answers_have_the_documented_shape(
     parts = {"session_id": identity, "tick": 2}
     if "{evaluation_id}" in path:
         parts["evaluation_id"] = (await client.post("/api/v1/evaluations", json={"runs": 1})).json()["id"]
+    if "{answer_id}" in path:
+        monkeypatch.setattr("service.http.prefer.LONG_UNITS", 0)
+        parts["answer_id"] = await long_answer(client, identity)
     answer = await client.request(method, path.format(**parts), json=body)
     assert str(answer.status_code) in operation["responses"]
     assert answer.is_success
@@ -194,13 +200,25 @@ async def test_answers_have_the_documented_shape(
         validator(schema).validate(answer.json())
 
 
+async def long_answer(client: httpx.AsyncClient, session: str) -> str:
+    """One that is there, since judging a moment takes no waiting."""
+    path = f"/api/v1/sessions/{session}/regret?limit=1"
+    told = (await client.get(path, headers={"Prefer": "respond-async"})).json()
+    while told["state"] == "running":
+        told = (await client.get(told["links"]["self"])).json()
+        await asyncio.sleep(0)
+    return str(told["id"])
+
+
 @pytest.mark.parametrize("path", POSTS)
 async def test_unknown_keys_are_refused_everywhere(client: httpx.AsyncClient, path: str) -> None:
     identity = await new_session(client)
     operation = DOCUMENT["paths"][path]["post"]
     for example in operation["requestBody"]["content"]["application/json"]["examples"].values():
         body = {**example["value"], "surprise": 1}
-        answer = await client.post(path.format(evaluation_id="e", session_id=identity), json=body)
+        answer = await client.post(
+            path.format(answer_id="e", evaluation_id="e", session_id=identity), json=body
+        )
         assert answer.status_code == 422
         assert answer.json()["errors"] == [{"field": "surprise", "message": "is not a known key"}]
 
@@ -214,7 +232,7 @@ async def test_an_unknown_session_is_unknown_everywhere(client: httpx.AsyncClien
                 "value"
             ]
         answer = await client.request(
-            method, path.format(evaluation_id="e", session_id="nobody", tick=1), json=body
+            method, path.format(answer_id="e", evaluation_id="e", session_id="nobody", tick=1), json=body
         )
         assert (answer.status_code, answer.json()["type"]) == (404, "/problems/unknown-session")
         assert answer.headers["content-type"] == "application/problem+json"
@@ -334,7 +352,9 @@ async def post(path: str, content: bytes) -> None:
         before = (await client.get(f"{target}/state")).json()
         headers = {"content-type": "application/json"}
         answer = await client.post(
-            path.format(evaluation_id="e", session_id=identity), content=content, headers=headers
+            path.format(answer_id="e", evaluation_id="e", session_id=identity),
+            content=content,
+            headers=headers,
         )
         assert_in_contract(path, answer)
         if not answer.is_success:

@@ -13,6 +13,7 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
+from service.client.notebook import WIDGET_VIEW
 from tests.support.service_process import ROOT, ServiceProcess
 
 EXAMPLES = ROOT / "examples"
@@ -74,6 +75,10 @@ def test_notebooks_run(path: Path, service: ServiceProcess, monkeypatch: pytest.
     shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     assert shown
     assert all(output.output_type != "error" for output in shown)
+    if path.stem == "notebook_client":
+        forms = shown[0].data
+        assert forms[WIDGET_VIEW]["model_id"]
+        assert "<svg" in forms["text/html"], "where widgets are not shown, the road is"
 
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.ipynb")), ids=lambda path: path.stem)

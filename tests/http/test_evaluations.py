@@ -18,7 +18,7 @@ from pydantic import SecretStr
 from service.app import create_app
 from service.grammar import Language
 from service.scenarios import named_scenario
-from service.scenarios.begin import evaluation_of_scenario
+from service.scenarios.evaluation import evaluation_of_scenario
 from service.settings import Settings
 from service.store import MemoryStore, StoreError
 from sim.config import Config
@@ -198,6 +198,11 @@ async def test_a_restart_goes_on_where_it_was_and_finds_the_same() -> None:
         ({"config": {"solvable": True, "columns": 3, "rows": 6, "potholes": 12, "vehicles": 0}}, "road"),
         ({"config": {"potholes": 5_000}}, "config.potholes"),
         ({"road": "this"}, "road"),
+        ({"scenario_name": "flat-earth"}, "scenario_name"),
+        ({"scenario_name": "maze", "config": {"potholes": 3}}, "scenario_name"),
+        ({"scenario_name": "maze", "find": "worst"}, "scenario_name"),
+        ({"scenario_name": "maze", "text": "evaluate A*"}, "scenario_name"),
+        ({"scenario_name": "maze", "runs": 0}, "runs"),
         ({"text": "add five potholes"}, "text"),
         ({"text": "evaluate A*", "runs": 5}, "runs"),
         ({"text": "run 100 episodes with DWA"}, "planners"),
@@ -228,6 +233,71 @@ async def test_a_full_disk_is_said_before_it_begins(
         assert answer.json()["type"] == "/problems/not-saved"
 
 
+async def test_a_disk_without_room_for_the_figures_is_said_before_it_begins(
+    running: Service, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def little() -> int:
+        return 20_000_000
+
+    monkeypatch.setattr(running.store, "room", little)
+    path = await running.session()
+    for answer in (
+        await running.client.post(ALL, json={"runs": 1_000_000}),
+        await running.say(path, "run 1000000 episodes"),
+    ):
+        assert answer.status_code == 503
+        assert "may take 32 MB, and the disk has 20 MB left" in answer.json()["detail"]
+    assert (await running.client.get(ALL)).json()["items"] == []
+    assert (await running.client.post(ALL, json={"runs": 5})).status_code == 202
+
+
+async def test_a_scenario_is_named_by_sentence_and_by_figures(running: Service) -> None:
+    said = await running.client.post(ALL, json={"text": "run the gap in the wall scenario 20 times with A*"})
+    typed = await running.client.post(
+        ALL, json={"runs": 20, "planners": ["astar"], "scenario_name": "Gap in the wall"}
+    )
+    filed = await running.client.post(
+        ALL, json={"runs": 20, "planners": ["astar"], "file": named_scenario("gap-in-the-wall").to_values()}
+    )
+    found = [await ended(running, each.headers["location"]) for each in (said, typed, filed)]
+    assert found[0]["result"] == found[1]["result"] == found[2]["result"]
+    assert (found[0]["scenario_name"], found[0]["same_road"]) == ("gap-in-the-wall", True)
+    assert "20 runs of “gap-in-the-wall” with A*" in found[0]["title"]
+    page = (await running.client.get(f"{said.headers['location']}/report")).text
+    assert "Every planner drove the same road" in page
+
+
+async def test_a_moment_that_was_saved_is_a_road_to_evaluate(running: Service) -> None:
+    path = await running.session(config={"vehicles": 4, "potholes": 2}, paused=True, seed=5)
+    assert (await running.say(path, "save this as night shift")).status_code == 200
+    saved = (await running.state(path))["digest"]
+    assert (await running.say(path, "step 3 ticks and remove all potholes")).status_code == 200
+    answer = await running.say(
+        path, "run the scenario night shift 20 times with A* and tell me how often it crashes"
+    )
+    assert answer.status_code == 200, answer.text
+    (one,) = answer.json()["evaluations"]
+    found = await ended(running, one["links"]["self"])
+    assert (found["scenario_name"], found["same_road"], found["runs"]) == ("night shift", True, 20)
+    body = {
+        "runs": 20,
+        "planners": ["astar"],
+        "session": path.rpartition("/")[2],
+        "scenario_name": "night shift",
+    }
+    typed = await ended(running, (await running.client.post(ALL, json=body)).headers["location"])
+    assert typed["result"] == found["result"]
+    await running.say(path, "go back to night shift")
+    assert (await running.state(path))["digest"] == saved
+    here = {**body, "road": "this"}
+    here.pop("scenario_name")
+    same = await ended(running, (await running.client.post(ALL, json=here)).headers["location"])
+    assert same["result"] == found["result"]
+    unknown = await running.say(path, 'run the scenario "day shift" 20 times')
+    assert unknown.status_code == 422
+    assert "night shift, closing-in" in unknown.json()["detail"]
+
+
 async def test_too_many_that_wait_are_refused(held: Service) -> None:
     answers = [await held.client.post(ALL, json={"runs": 40}) for _ in range(21)]
     assert [each.status_code for each in answers] == [202] * 20 + [429]
@@ -241,7 +311,8 @@ async def test_a_session_evaluates_its_own_roads_and_says_so(running: Service) -
     said = answer.json()
     (one,) = said["evaluations"]
     assert said["reply"].startswith("Started 20 runs with A*, with 30 potholes on roads drawn from seed")
-    assert one["links"]["report"] in said["reply"]
+    assert "/api" not in said["reply"]  # the link beside it opens the report
+    assert one["links"]["report"].endswith("/report")
     found = await ended(running, one["links"]["self"])
     assert (found["config"]["potholes"], found["seed"], found["same_road"]) == (30, before["seed"], False)
     log = (await running.client.get(f"{path}/events")).json()["items"]
@@ -399,3 +470,34 @@ async def test_a_search_for_failures_is_asked_about_and_cancelled_in_the_same_wa
     assert "%" in reply or "waits" in reply
     reply = (await held.say(path, "cancel the search")).json()["reply"]
     assert reply.startswith("Cancelled after")
+
+
+async def test_a_success_map_is_asked_for_in_a_sentence_and_in_figures(running: Service) -> None:
+    small = {"columns": 5, "rows": 10, "planner": "priority"}
+    path = await running.session(config=small, paused=True)
+    said = await running.say(path, "show me a success map of potholes and traffic with 2 runs")
+    assert said.status_code == 200, said.text
+    assert said.json()["reply"].startswith("Started 2 runs with Priority rules, on 5 lanes")
+    over = "in each cell of a map over potholes and cars"
+    assert over in said.json()["reply"]
+    body = {"map": ["potholes", "vehicles"], "runs": 2, "config": small, "planners": ["priority"]}
+    made = await running.client.post(ALL, json=body | {"vary": {"vehicles": [0, 4]}})
+    assert made.status_code == 202, made.text
+    whole = await ended(running, said.json()["evaluations"][0]["links"]["self"])
+    assert [len(each) for each in whole["result"]["map"]["values"]] == [6, 6]
+    found = await ended(running, made.json()["links"]["self"])
+    assert found["result"]["map"]["values"][1] == [0, 4]
+    assert found["title"] == f"Evaluation: 2 runs with Priority rules, on 5 lanes, on 10 rows, {over}"
+    typed = await running.act(path, {"do": "evaluate", "runs": 2, "map": ["potholes", "vehicles"]})
+    assert typed.status_code == 200, typed.text
+    page = (await running.client.get(f"{made.json()['links']['self']}/report")).text
+    assert "Success map: Priority rules" in page
+    for wrong in (
+        {"map": ["potholes"]},
+        {"map": ["potholes", "weather"]},
+        {"map": ["potholes", "vehicles"], "vary": {"weather": ["fog", "rain"]}},
+        {"map": ["potholes", "vehicles"], "vary": {"potholes": list(range(40))}},
+        {"map": ["potholes", "vehicles"], "find": "worst"},
+        {"map": ["potholes", "vehicles"], "runs": 1_000_000},
+    ):
+        assert (await running.client.post(ALL, json=wrong)).status_code == 422, wrong

@@ -48,6 +48,38 @@ async def test_what_is_about_to_be_decided_is_decided(service: Service) -> None:
     assert (await asked(service, f"{path}/forecast", tick=ended))["decision"] is None
 
 
+async def test_the_path_is_the_one_that_is_driven(service: Service) -> None:
+    path = await service.session(seed=9, paused=True)
+    assert "path" not in await asked(service, f"{path}/forecast")
+    told = await asked(service, f"{path}/forecast", path_=16)
+    for cell in told["path"]:
+        await service.client.post(f"{path}/step", json={"ticks": 1})
+        assert (await service.state(path))["vehicles"][0]["cell"] == cell
+    assert await asked(service, f"{path}/forecast", path_=16, tick=0) == told
+    assert (await service.state(path))["status"] == "running"
+
+
+async def test_a_path_ends_with_its_episode(service: Service) -> None:
+    path = await service.session(seed=9, paused=True, config={"rows": 12})
+    for _ in range(30):
+        told = await asked(service, f"{path}/forecast", path_=4)
+        if len(told["path"]) < 4:
+            break
+        await service.client.post(f"{path}/step", json={"ticks": 1})
+    await service.client.post(f"{path}/step", json={"ticks": len(told["path"])})
+    state = await service.state(path)
+    assert state["status"] != "running"
+    assert state["vehicles"][0]["cell"] == told["path"][-1]
+    assert (await asked(service, f"{path}/forecast", path_=4))["path"] == []
+
+
+async def test_a_path_of_too_many_ticks_is_refused(service: Service) -> None:
+    path = await service.session(paused=True)
+    answer = await service.client.get(f"{path}/forecast", params={"path": 17})
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["field"] == "path"
+
+
 async def test_what_is_left_to_chance_is_not_called_exact(service: Service) -> None:
     path = await service.session(paused=True, config={"attentive": 0.0})
     await service.client.post(f"{path}/step", json={"ticks": 1})

@@ -39,3 +39,10 @@ async def test_what_cannot_be_had_is_named(service: Service, query: str) -> None
     answer = await service.client.get(f"{path}/frame?{query}")
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["field"] == query.split("=")[0]
+
+
+async def test_it_has_the_look_that_is_asked_for(service: Service) -> None:
+    path = await service.session(paused=True)
+    queries = ("", "?theme=light", "?boxes=false", "?figures=false", "?forecast=true")
+    pictures = [(await service.client.get(f"{path}/frame{query}")).content for query in queries]
+    assert len(set(pictures)) == len(queries)

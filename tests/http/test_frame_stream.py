@@ -21,6 +21,7 @@ from service.sessions.session import Session
 from service.settings import Settings
 from service.store import MemoryStore
 from sim.config import Config
+from sim.render import Look
 from tests.support.fakes import FewSentences, HandClock
 from tests.support.live_server import running
 
@@ -87,6 +88,37 @@ async def test_a_change_is_drawn_and_going_back_is_a_cut(session: Session) -> No
     session.timeline.state = session.timeline.at(1)
     await reel.draw_now(1.1)
     assert read(await slot.next())[:2] == (1, 1.0)
+
+
+async def test_the_next_move_is_drawn_once_the_clock_stands(session: Session) -> None:
+    pictures = []
+    for path in (True, False):
+        session.set_paused(False)
+        look = Look(figures=False, path=path)
+        reel, slot = Reel(session, Wanted("road", "webp", 240, look), CapacityLimiter(1)), Slot(30)
+        reel._slots.add(slot)
+        await reel.draw_now(1.0)
+        await slot.next()
+        session.set_paused(True)
+        await reel.draw_now(1.1)
+        pictures.append(read(await slot.next())[2].convert("RGB").tobytes())
+        await reel.draw_now(1.2)
+        assert slot._newest is None, "nothing is drawn where nothing changes"
+    assert pictures[0] != pictures[1]
+
+
+async def test_the_way_behind_is_that_which_was_seen(session: Session) -> None:
+    reel = Reel(session, ROAD, CapacityLimiter(1))
+    reel._slots.add(Slot(30))
+    cells = []
+    for at_s in range(4):
+        await reel.draw_now(float(at_s))
+        cells.append(session.run.world.road.cell(session.run.world.avs[0]))
+        session.tick()
+    assert list(reel._trail) == list(dict.fromkeys(cells[:-1]))
+    session.timeline.state = session.timeline.at(1)
+    await reel.draw_now(9.0)
+    assert reel._trail == ()
 
 
 async def test_as_fast_as_possible_there_is_no_gliding(session: Session) -> None:
@@ -177,7 +209,7 @@ async def test_over_a_socket() -> None:
         (told,) = [each for each in first if isinstance(each, dict)]
         assert told == {
             "type": "subscribed", "frames": "webp", "view": "schematic", "fps": 60, "side": 64,
-            "theme": "dark", "boxes": True, "figures": True,
+            "theme": "dark", "boxes": True, "figures": True, "path": True, "forecast": False,
         }  # fmt: skip
         (picture,) = [each for each in first if isinstance(each, bytes)]
         assert read(picture)[0] == 0

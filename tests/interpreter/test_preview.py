@@ -94,3 +94,17 @@ async def test_no_model_is_asked(opening: Opening) -> None:
     assert foreseen is not None
     assert foreseen["standing"] == "not_understood"
     assert model.asked == []
+
+
+@pytest.mark.parametrize(
+    ("text", "standing"),
+    [
+        ("when do you reckon we get to the finish line?", "asks"),
+        ("so is it gonna move again or is that it", "ambiguous"),
+        ("please paint the road pink for the photo", "not_understood"),
+    ],
+)
+async def test_a_question_in_free_words_is_previewed_as_one(talk: Talk, text: str, standing: str) -> None:
+    shown = await preview(talk, text)
+    assert shown is not None
+    assert shown["standing"] == standing

@@ -41,6 +41,12 @@ async def talking(settings: Settings) -> AsyncIterator[Service]:
         ),
         ("set the sensor range to 40 m", "The sensor range: 150 m → 40 m."),
         ("set rows to 40", "The number of rows: 30 → 40. A new road"),
+        ("set the slip probability to 10 %", "The slip probability: 0 % → 10 %."),
+        ("set the sensor latency to 1", "The sensor latency: 0 ticks → 1 tick."),
+        (
+            "set the daily traffic curve to 1",
+            "The daily traffic curve: 0 % → 100 %. It shows from the next road on.",
+        ),
     ],
 )
 async def test_what_is_set_is_said(talking: Service, text: str, reply: str) -> None:
@@ -77,3 +83,14 @@ async def test_a_weighing_planner_says_what_its_moves_cost(talking: Service, pla
         assert "first choice" not in said["text"]
         not_left = await talking.say(path, f"why not left at tick {tick}?")
         assert not_left.status_code == 200, not_left.text
+
+
+async def test_a_road_on_which_moves_slip_is_told_as_one(talking: Service) -> None:
+    path = await talking.session(paused=True, config={"planner": "priority", "potholes": 12})
+    for text in ("make it snow", "set the slip probability to 60 %"):
+        assert (await talking.say(path, text)).status_code == 200
+    sure = (await talking.say(path, "how sure are you?")).json()["reply"]
+    assert "counted both ways" in sure
+    await talking.say(path, "step 30 times")
+    log = (await talking.client.get(f"{path}/events")).json()
+    assert "slipped" in str(log)

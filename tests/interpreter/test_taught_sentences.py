@@ -45,7 +45,7 @@ BEFORE = {
 
 
 def with_phrase(phrase: str, topic: Topic) -> Topic:
-    phrases = english().phrases({phrase: contract.load(TWO_CARS)})
+    phrases = english().phrases([contract.Teach(phrase=phrase, meaning=contract.load(TWO_CARS))])
     return replace(topic, phrases=phrases)
 
 

@@ -215,7 +215,7 @@ async def test_a_phrase_with_digits_is_that_one_alone(talk: Talk) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        *("add a rush hour", "add two rush hour", "rush hour rush hour", "rush hour twice", "why rush hour?"),
+        *("add a rush hour", "add two rush hour", "rush hour rush hour", "why rush hour?"),
         *(
             "remove rush hour",
             "rush hour in the left lane",
@@ -234,6 +234,11 @@ async def test_a_phrase_with_digits_is_that_one_alone(talk: Talk) -> None:
 async def test_a_phrase_inside_another_request_is_refused_whole(talk: Talk, text: str) -> None:
     await talk.say("when I say rush hour, I mean add two cars")
     await talk.refused(text)
+
+
+async def test_a_phrase_is_done_several_times_at_once(talk: Talk) -> None:
+    await talk.say("when I say rush hour, I mean add two cars")
+    assert (await talk.say("rush hour twice"))["actions"] == [{"do": "add", "kind": "vehicle", "count": 4}]
 
 
 async def test_a_negated_phrase_is_not_done(talk: Talk) -> None:

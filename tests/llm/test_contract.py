@@ -29,6 +29,8 @@ FREE_TEXT = {
     ("Style", "style"),
 }
 """Fields of a model's actions that take any text: each is checked by `reading`."""
+PARTS_OF_FORBIDDEN = {"PhraseParameter"}
+"""Types that only forbidden actions name."""
 
 
 def test_every_action_is_either_offered_or_forbidden_on_purpose() -> None:
@@ -42,7 +44,7 @@ def test_every_type_that_is_named_is_described() -> None:
     named = set(re.findall(r": \(?([A-Z]\w+)", schema())) - {"Action"}
     assert named == set(re.findall(r"^type (\w+)", schema(), re.MULTILINE))
     assert "$ref" not in schema()
-    assert len(schema()) < 11_000
+    assert len(schema()) < 12_000
 
 
 def test_no_other_field_takes_any_text() -> None:
@@ -53,7 +55,7 @@ def test_no_other_field_takes_any_text() -> None:
         for one in (value, *value.get("anyOf", ()))
         if one.get("type") == "string" and not {"const", "enum"} & set(one)
     }
-    forbidden = {name for name, part in DEFS.items() if _do(part) in FORBIDDEN}
+    forbidden = {name for name, part in DEFS.items() if _do(part) in FORBIDDEN} | PARTS_OF_FORBIDDEN
     assert {(name, field) for name, field in found if name not in forbidden} == FREE_TEXT
 
 

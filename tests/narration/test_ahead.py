@@ -23,6 +23,8 @@ from sim.types import Mode, Move, Outcome
 from tests.support.narration_checks import ids_in, looks_like_sentences
 
 NARRATORS = {"en": Narrator.load(), "de": Narrator.load().in_language("de")}
+ABOUTS = ("outlook", "blame", "planners", "sight", "world")
+LOOKING_BACK = ("runner_up", "scores", "waited", "differed", "before_crash")
 YES_NO = {"en": ("Yes", "No"), "de": ("Ja", "Nein")}
 
 
@@ -53,8 +55,15 @@ def sessions(count: int) -> Iterator[Timeline]:
 def asks() -> list[Ask]:
     """Every question that these answer."""
     found = [Ask(about="outlook", what="safe", move=move) for move in (Move.LEFT, Move.FORWARD, Move.STAY)]
-    for about in ("outlook", "blame", "planners"):
-        found += [Ask(about=about, what=what) for what in WHATS[about] if what != "safe"]  # type: ignore[arg-type]
+    for about in ABOUTS:
+        found += [
+            Ask(about=about, what=what)  # type: ignore[arg-type]
+            for what in WHATS[about]
+            if what not in ("safe", "coming", "difference")
+        ]
+    found += [Ask(about="planners", what="difference", planners=("astar", "bfs"))]
+    found += [Ask(about="outlook", what="coming", ticks=ticks) for ticks in (1, 7)]
+    found += [Ask(about="history", what=what) for what in LOOKING_BACK]  # type: ignore[arg-type]
     return [*found, Ask(about="planners", what="here", planners=("astar", "dwa"))]
 
 
@@ -151,5 +160,5 @@ def test_the_figures_of_a_planner_are_those_of_the_file() -> None:
 
 
 def test_what_each_question_may_ask_is_answered() -> None:
-    told = {ask.what for ask in asks()}
-    assert told == {what for about in ("outlook", "blame", "planners") for what in WHATS[about]}
+    told = {ask.what for ask in asks() if ask.about in ABOUTS}
+    assert told == {what for about in ABOUTS for what in WHATS[about]}

@@ -9,7 +9,7 @@ import pytest
 
 from service.evaluations.cases import case_link, case_scenario, explain_cases
 from service.narration import falsification_words
-from service.scenarios.begin import first_state
+from service.scenarios.evaluation import first_state
 from service.scenarios.file import read_scenario
 from sim.config import Config
 from sim.evaluate.executor import CancelledError

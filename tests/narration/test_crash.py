@@ -33,7 +33,7 @@ def test_a_crash_is_told_with_what_it_hung_on_and_what_would_have_saved_it() -> 
     told = answer(crashed())
     assert told["text"] == (
         "I crashed at tick 20: I stayed, and the car on my right came into my cell. "
-        "Without the car on my right I would have met nothing. The same holds for 2 more things. "
+        "Without the car on my right I would not have crashed then. The same holds for 2 more things. "
         "The last tick with a way to the goal was 17: there I went forward, "
         "and moving diagonally right would have come to it."
     )

@@ -232,6 +232,33 @@ def said(narrator: Narrator, draw: random.Random, timeline: Timeline) -> Iterato
             for what in draw.sample(["arrival", "crash", "stuck", "avoid_how"], 2)
         ),
         *(Ask(about="blame", what=what) for what in ("fault", "too_late", "foreseen", "avoidable")),
+        Ask(about="outlook", what="risk"),
+        Ask(about="outlook", what="coming", ticks=draw.randrange(1, 9)),
+        *(
+            Ask(about="history", what=what)
+            for what in draw.sample(["runner_up", "scores", "waited", "differed", "before_crash"], 2)
+        ),
+        *(Ask(about="history", what=what) for what in ("lane_changes", "passed", "verdict")),
+        Ask(about="history", what="passed", kind=draw.choice(PLACEABLE).value),
+        Ask(about="blame", what="human"),
+        Ask(about="planners", what="difference", planners=("astar", draw.choice(["rules", "bfs"]))),
+        *(Ask(about="sight", what=what) for what in draw.sample(["care", "weathers", "sensors"], 1)),
+        *(
+            Ask(about="world", what=what)
+            for what in draw.sample(
+                ["moves", "movers", "weights", "learning", "nature", "by_hand", "giving_up"], 2
+            )
+        ),
+        Ask(about="planners", what="often"),
+        Ask(about="what_if", change=(Drive(move=Move.STAY),), count=3),
+        *(
+            Ask(about="sight", what=what)
+            for what in draw.sample(["phantoms", "missed", "truth", "range", "blind", "weather"], 2)
+        ),
+        *(
+            Ask(about="world", what=what)
+            for what in draw.sample(["pace", "gap", "stopping", "right_of_way", "harm", "chance"], 2)
+        ),
         *(Ask(about="planners", what=what) for what in draw.sample(["compare", "character", "own"], 2)),
     ]
     for ask in asks:

@@ -67,12 +67,12 @@ COUNTED = Metrics(successes=8, crashes=3, stuck=1, forward=300, lateral=90, stay
             "39 and 87 %.",
         ),
         ("steps", "I have driven for 400 ticks (200 s)."),
-        ("moves", "400 moves: 75 % forward, 22 % sideways and 2 % standing still."),
+        ("moves", "400 moves, 75 % forward, 22 % sideways and 2 % standing still."),
         ("distance", "I have driven 1.9 km."),
         (
             None,
             "8 arrivals, 3 crashes and stuck once in 12 episodes. I arrived in 67 % of them; with 95 % "
-            "confidence the true rate lies between 39 and 87 %. 400 moves: 75 % forward, 22 % sideways "
+            "confidence the true rate lies between 39 and 87 %. 400 moves, 75 % forward, 22 % sideways "
             "and 2 % standing still. I have driven 1.9 km.",
         ),
     ],

@@ -1,12 +1,14 @@
 """A planner that a program registers is explained as one that comes with the project: by traits, not by name.
 
 Each built-in planner is registered once more under another name, drives the same roads and is asked the same
-questions. All answers must be those of the original, but for the name.
+questions. All answers must be those of the original, but for the name and for how often a decision was run
+again: where the compiled searches are loaded, the original's changes are tried many at once.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -79,8 +81,11 @@ def narrator() -> Narrator:
 
 
 def named(value: object) -> str:
-    """All that a value says, a copy by the name of what it is a copy of."""
-    return repr(value).replace(PREFIX, "")
+    """All that a value says but how much was tried for it, a copy by the name of what it is a copy of.
+
+    Of planners that are compiled, many changes are tried at once.
+    """
+    return re.sub(r"((?:reruns|searched|tried)\W+)\d+", r"\1_", repr(value).replace(PREFIX, ""))
 
 
 def tried(ask: Callable[..., object], *args: object) -> str:

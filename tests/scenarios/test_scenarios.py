@@ -14,7 +14,8 @@ from service.cli.main import cli
 from service.evaluations.report.document import episode_link
 from service.grammar import Language
 from service.scenarios import NAMES, ScenarioError, named_scenario, read_scenario
-from service.scenarios.begin import evaluation_of_scenario, first_state, recording_of, scenario_link
+from service.scenarios.begin import recording_of, scenario_link
+from service.scenarios.evaluation import evaluation_of_scenario, first_state
 from service.scenarios.words import NoScenarioError, scenario_of, sentence_of
 from sim.evaluate import Evaluation, EvaluationError
 from sim.evaluate.part import drive_one

@@ -141,12 +141,13 @@ async def test_a_search_nobody_waits_for_ends_and_changes_nothing() -> None:
 
 async def test_a_request_that_is_cancelled_abandons_its_search(monkeypatch: pytest.MonkeyPatch) -> None:
     session = await Service().session(Config(seed=3))
-    started, abandoned = asyncio.Event(), []
+    started, cancelled, abandoned = asyncio.Event(), Event(), []
     loop = asyncio.get_running_loop()
 
     def wait(transaction: Transaction, *_: object) -> tuple[()]:
         loop.call_soon_threadsafe(started.set)
-        abandoned.append(transaction.abandoned.wait(10))
+        cancelled.wait(10)
+        abandoned.append(transaction.abandoned.is_set())
         raise Invalid("given up")
 
     monkeypatch.setattr(Transaction, "perform", wait)
@@ -155,6 +156,7 @@ async def test_a_request_that_is_cancelled_abandons_its_search(monkeypatch: pyte
     task.cancel()
     with pytest.raises(asyncio.CancelledError):
         await task
+    cancelled.set()
     await asyncio.gather(*session.tasks, return_exceptions=True)
     assert abandoned == [True]
 

@@ -15,6 +15,7 @@ from pathlib import Path
 import asyncpg
 import pytest
 
+from service.sharding import Shard
 from service.store import (
     Branch,
     EntryRecord,
@@ -341,6 +342,25 @@ async def test_a_second_service_on_the_same_server_is_refused(postgres: Server) 
     await first.close()
     await second.open()
     await second.close()
+
+
+async def test_shards_share_a_server_and_nobody_else_does(postgres: Server) -> None:
+    url = await postgres.database()
+    alone, again = SqlStore(url), SqlStore(url, Shard(1, 2))
+    shards = [SqlStore(url, Shard(number, 2)) for number in range(2)]
+    for each in shards:
+        await each.open()
+    for refused in (alone, again):  # a service of its own, and a second process of one number
+        with pytest.raises(StoreError, match="locked: another service uses it"):
+            await refused.open()
+    await shards[1].close()
+    await again.open()
+    for each in (shards[0], again):
+        await each.close()
+    await alone.open()
+    with pytest.raises(StoreError, match="locked: another service uses it"):
+        await shards[0].open()
+    await alone.close()
 
 
 async def test_a_server_that_is_not_there_is_told_without_a_password() -> None:

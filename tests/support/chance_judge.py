@@ -27,7 +27,7 @@ def judge_stated(
     """
     if stated is None or stated.settled or not re.search(r"%|of \d+ futures", text):
         return
-    after = step(state).state if move is None else transition(state, {FIRST: move}).state
+    after = _after(state, move)
     arrived = sum(_arrives(after, seed) for seed in range(DRAWS))
     yield "5 chance off", _off(stated, arrived, text)
 
@@ -43,9 +43,20 @@ def _off(stated: Chances, arrived: int, text: str) -> str | None:
     return f"{arrived} of {DRAWS} arrive, {stated.arrives:.3f} is stated: {text}"
 
 
-def hangs_on_chance(state: SimState, draws: int) -> bool:
-    """Whether different draws of who gives way lead to different ends."""
-    return not state.config.certain and len({_end(state, seed) for seed in range(draws)}) > 1
+def hangs_on_chance(state: SimState, draws: int, move: Move | None = None) -> bool:
+    """Whether different draws of who gives way after the coming tick lead to different ends.
+
+    Who reacts in the coming tick is drawn already and seen: it is not drawn anew. `move`: the one made in it;
+    None for what the ego makes of it.
+    """
+    if state.config.certain or state.world.outcome is not Outcome.RUNNING:
+        return False
+    after = _after(state, move)
+    return len({_end(after, seed) for seed in range(draws)}) > 1
+
+
+def _after(state: SimState, move: Move | None) -> SimState:
+    return step(state).state if move is None else transition(state, {FIRST: move}).state
 
 
 def _arrives(state: SimState, seed: int) -> bool:

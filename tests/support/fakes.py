@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 from service import actions as contract
 from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
@@ -45,7 +45,10 @@ class FewSentences:
     def sentence(self, actions: Sequence[contract.Action]) -> str:
         return " and ".join(action.do for action in actions)
 
-    def phrases(self, taught: Mapping[str, Sequence[contract.Action]]) -> Phrases:  # noqa: ARG002
+    def sentence_of_meaning(self, taught: contract.Teach) -> str:
+        return self.sentence(taught.meaning)
+
+    def phrases(self, taught: Iterable[contract.Teach]) -> Phrases:  # noqa: ARG002
         return Phrases()
 
     def words_of(self, text: str) -> tuple[str, ...]:

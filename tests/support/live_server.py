@@ -56,13 +56,13 @@ class _Ready(uvicorn.Server):
 
 
 @asynccontextmanager
-async def running(app: FastAPI, settings: Settings) -> AsyncIterator[Running]:
+async def running(app: FastAPI, settings: Settings, *, behind_entry: bool = False) -> AsyncIterator[Running]:
     """The application as `roadtalk serve` runs it."""
     listener = socket.socket()
     # Small buffers, inherited by connections: a reader that stops reading is soon felt.
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SMALL_BYTES)
     listener.bind(("127.0.0.1", 0))
-    server = _Ready(server_config(app, settings))
+    server = _Ready(server_config(app, settings, behind_entry=behind_entry))
     task = asyncio.create_task(server._serve([listener]))
     await asyncio.wait_for(server.listening.wait(), 60)
     service = Running(listener.getsockname()[1], server, task)

@@ -38,6 +38,9 @@ NUMBERS = (
     "sensor_noise",
     "detection_sensitivity",
     "false_positive_rate",
+    "sensor_latency",
+    "slip_probability",
+    "traffic_by_hour",
     "sensor_range_m",
 )
 PLAIN = (

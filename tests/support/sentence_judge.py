@@ -17,11 +17,13 @@ from service.narration.naming import Naming
 from service.narration.narrator import Narrator
 from service.narration.sayings import Sayings
 from sim.actions import Add, Prefer, Remove, Wish, WorldAction
-from sim.decide import decide
+from sim.decide import decide, sense
 from sim.explain import Explanation
 from sim.explain.crash import Crash
 from sim.explain.intervention import wall
+from sim.forecast import predict
 from sim.plan import Decision, Measure
+from sim.plan.rule_based import standing
 from sim.session.edits import apply
 from sim.session.errors import EditError
 from sim.state import SimState
@@ -33,6 +35,10 @@ from tests.support.twin import STEPS, position
 Judged = Iterator[tuple[str, str | None]]
 LONGEST = 60
 """Words of an answer that was not asked for in detail."""
+CHAINED = re.compile(
+    r"not have been in the way|would have (been in the way|kept me from|led into|come between)|Even with"
+)
+"""What held a thing in the way, or what would have held the move back without it."""
 SURVIVED = 40
 """Ticks that a vehicle must keep clear for a crash to count as avoidable."""
 
@@ -40,16 +46,17 @@ SURVIVED = 40
 class Recording(Sayings):
     """Sayings that remember which things the last sentences named as being in the way."""
 
-    named: tuple[str, ...] = ()
+    named: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
     def in_the_way(self, reason, move, ids, tense, naming):  # type: ignore[no-untyped-def]
-        self.named = (*self.named, *ids)
-        return super().in_the_way(reason, move, ids, tense, naming)
+        told = super().in_the_way(reason, move, ids, tense, naming)
+        self.named = (*self.named, (told.lower(), tuple(ids)))
+        return told
 
-    def recorded(self) -> tuple[str, ...]:
-        """The ids named since it was last asked."""
+    def recorded(self, text: str) -> tuple[str, ...]:
+        """The ids named since it was last asked, where what names them stands in a text."""
         named, self.named = self.named, ()
-        return named
+        return tuple(name for told, ids in named if told in text.lower() for name in ids)
 
 
 def decided(state: SimState, change: Iterable[WorldAction] = ()) -> Decision | None:
@@ -199,17 +206,36 @@ def judge_left_out(explanation: Explanation, text: str, named: Collection[str]) 
     if named and fact is not Move.FORWARD:
         members = {name for cause in explanation.causes for name in cause.group} | told
         chained = {link.blocker for link in explanation.chain}
-        yield "4 blocker is no cause", None if {*named} & (members | chained) else f"{named}: {text}"
+        told = {*named} & members or ({*named} & chained and CHAINED.search(text))
+        yield "4 blocker is no cause", None if told else f"{named}: {text}"
 
 
 def judge_chain(explanation: Explanation) -> Judged:
     """What is said to be in the way only because of another thing, or to hide one, is and does."""
-    state = explanation.moment
+    state, fact = explanation.moment, explanation.decision.move
     for link in explanation.chain:
+        if link.by is None or link.leads:
+            after = decided(state, taking([link.blocker], state.config))
+            kept = after is not None and after.move is fact and not after.option(link.move).causes
+            so = kept and (not link.leads or _leads(state, link.blocker, link.move) == (link.leads, link.by))
+            yield "4 chain that is none", None if so else f"{link}"
+            continue
         gone, met = (link.blocker, link.by) if link.behind else (link.by, link.blocker)
         after = decided(state, taking([gone], state.config))
         there = after is not None and met in after.option(link.move).causes
         yield "4 chain that is none", None if there is link.behind else f"{link}"
+
+
+def _leads(state: SimState, gone: str, move: Move) -> tuple[str | None, str | None]:
+    """Where a move leads once something was taken off the road, and which mover closes the way from there."""
+    for action in taking([gone], state.config):
+        state = apply(state, action).state
+    forecast = predict(sense(state)[0], 1)
+    prospect = standing(forecast).of(move)
+    if prospect is None:
+        return None, None
+    closer = None if prospect.closer is None else forecast.slices.movers(0)[prospect.closer]
+    return prospect.leads.value, closer
 
 
 def judge_chance(state: SimState, text: str, *, ends_differ: bool) -> Judged:

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { fileName, videoPath, recordingIn, sizeText, stretch } from "../../web/src/timeline/downloads.js";
+import { fetchedLater, fileName, videoPath, recordingIn, sizeText, stretch } from "../../web/src/timeline/downloads.js";
 import { ask, askJson, Refused } from "../../web/src/core/http.js";
 import { hashOf, placeInHash, raceHash } from "../../web/src/core/address.js";
 import { forkAt, forks, noteFork, shareLink } from "../../web/src/timeline/links.js";
@@ -63,9 +63,44 @@ test("a film is of the latest ticks, or around the one that is looked at", () =>
   assert.deepEqual(stretch(300, 100), { from: 90, to: 110 });
   assert.deepEqual(stretch(300, 3), { from: 0, to: 20 });
   assert.deepEqual(stretch(300, 298), { from: 280, to: 300 });
-  const wish = { from: 0, to: 20, format: "gif", view: "road", side: 480, theme: "light", boxes: false };
-  assert.match(videoPath("a", wish, 0.5), /film\?from=0&to=20&format=gif&fps=12&view=road&side=480&theme=light&boxes=false$/);
+  const wish = { from: 0, to: 20, format: "gif", view: "road", side: 480, theme: "light", boxes: false, path: true, forecast: false };
+  assert.match(videoPath("a", wish, 0.5), /film\?from=0&to=20&format=gif&fps=12&view=road&side=480&theme=light&boxes=false&path=true&forecast=false$/);
   assert.match(videoPath("a", { ...wish, to: 160 }, 0.5), /fps=3&/);
+});
+
+const LATER = { id: "7", what: "film", links: { self: "/answers/7", result: "/answers/7/result" } };
+
+test("a video that takes long is looked at until it is there, then fetched and forgotten", async () => {
+  const asked = [], shares = [];
+  const states = [{ state: "running", progress: 0.25 }, { state: "done", progress: 1 }];
+  const http = async (path, { method, headers }) => {
+    asked.push(`${method} ${path}`);
+    if (path === "/film") {
+      assert.equal(headers.prefer, "respond-async");
+      return new Response(JSON.stringify({ ...LATER, state: "running", progress: 0 }), { status: 202 });
+    }
+    if (method === "DELETE") return new Response(null, { status: 204 });
+    return new Response(path === "/answers/7" ? JSON.stringify({ ...LATER, ...states.shift() }) : "GIF89a");
+  };
+  const data = await fetchedLater("/film", new AbortController().signal, (share) => shares.push(share), { http, lookMs: 0 });
+  assert.equal(await data.text(), "GIF89a");
+  assert.deepEqual(shares, [0, 0.25]);
+  assert.deepEqual(asked, ["GET /film", "GET /answers/7", "GET /answers/7", "GET /answers/7/result", "DELETE /answers/7"]);
+});
+
+test("a video that nobody wants any more is cancelled", async () => {
+  const asked = [], own = new AbortController();
+  const http = async (path, { method }) => {
+    asked.push(`${method} ${path}`);
+    return method === "DELETE" ? new Response(null, { status: 204 }) : new Response(JSON.stringify({ ...LATER, state: "running", progress: 0 }), { status: 202 });
+  };
+  await assert.rejects(fetchedLater("/film", own.signal, () => own.abort(), { http, lookMs: 60_000 }));
+  assert.deepEqual(asked, ["GET /film", "DELETE /answers/7"]);
+});
+
+test("a video that is there at once is taken as it is", async () => {
+  const data = await fetchedLater("/film", new AbortController().signal, () => assert.fail(), { http: async () => new Response("GIF89a") });
+  assert.equal(await data.text(), "GIF89a");
 });
 
 test("a file that is no recording says what it is instead", () => {

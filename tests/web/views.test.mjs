@@ -66,10 +66,10 @@ test("what is about to happen is asked for, and holds for that road only", async
     asked.push(path);
     return Response.json({ tick: 10, decision, exact: true, ahead: [{ tick: 11, movers: { "vehicle-1": [3, 19] } }] });
   };
-  const known = reduce(state, { type: "foresight", foresight: await foresee("s1", state.world, false, http) });
+  const known = reduce(state, { type: "foresight", foresight: await foresee("s1", state.world, false, { http }) });
   assert.deepEqual(foreseen(known).decision, decision);
   assert.equal(foreseen({ ...known, world: worldOf(wireState()) }), null);
-  await foresee("s1", state.world, true, http);
+  await foresee("s1", state.world, true, { http });
   assert.deepEqual(asked, ["/api/v1/sessions/s1/forecast?ticks=3", "/api/v1/sessions/s1/forecast?ticks=3&tick=10"]);
   assert.deepEqual(sightOf(known).centre, [4, 20]);
   assert.deepEqual(sightOf(known).decision, decision);

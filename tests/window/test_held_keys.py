@@ -6,9 +6,9 @@ import pygame
 
 from service.window.decision_lines import DecisionLine
 from sim.config import Config
-from sim.types import Mode
+from sim.types import Mode, Outcome
 from tests.window.conftest import Open
-from tests.window.driver import Driver
+from tests.window.driver import CARELESS, Driver
 
 EMPTY = Config(seed=4, potholes=0, vehicles=0)
 
@@ -68,3 +68,14 @@ def test_the_log_has_the_decisions_between_what_happened(window: Open) -> None:
     driver.say("rewind three ticks")
     left = [line for line in driver.game.decisions.among([]) if isinstance(line, DecisionLine)]
     assert all(line.last < tick for line in left)
+
+
+def test_the_log_tells_a_crash_after_the_decision_that_led_to_it(window: Open) -> None:
+    driver = window(config=CARELESS)
+    while driver.game.session.run.world.outcome is Outcome.RUNNING:
+        driver.seconds(0.25)
+    driver.seconds(0.3)
+    lines = driver.game.decisions.among(driver.game.session.log.latest(100))
+    ticks = [line.last if isinstance(line, DecisionLine) else line.tick for line in lines]
+    assert ticks == sorted(ticks)
+    assert lines[-1].type == "crashed"

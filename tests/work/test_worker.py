@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import os
+import threading
 from collections.abc import Iterator
+from subprocess import Popen
 
 import pytest
 
@@ -41,9 +43,32 @@ async def test_a_cancelled_call_ends_its_process_and_the_next_one_has_another(wo
     call.cancel()
     with pytest.raises(asyncio.CancelledError):
         await call
+    await asyncio.to_thread(reaped)
     with pytest.raises(ProcessLookupError):
         os.kill(before, 0)
     assert unpack_result(await worker.call(pack_call(dear_calls.process_id, ()))) != before
+
+
+def reaped() -> None:
+    """Waits for the processes that were killed."""
+    for thread in threading.enumerate():
+        if thread.name == "reaper":
+            thread.join()
+
+
+async def test_killing_waits_for_no_process(worker: Worker, monkeypatch: pytest.MonkeyPatch) -> None:
+    await worker.call(pack_call(dear_calls.process_id, ()))
+    waited, wait = threading.Event(), Popen.wait
+
+    def wait_later(process: Popen[bytes], timeout: float | None = None) -> int:
+        waited.wait(10)
+        return wait(process, timeout)
+
+    monkeypatch.setattr(Popen, "wait", wait_later)
+    worker.kill()  # would not return within ten seconds
+    assert [thread.name for thread in threading.enumerate()].count("reaper") == 1
+    waited.set()
+    await asyncio.to_thread(reaped)
 
 
 async def test_a_process_that_dies_is_told_and_replaced(worker: Worker) -> None:

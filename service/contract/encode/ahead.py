@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from service.contract.encode.assurance import assurance_json
 from service.contract.encode.confidence import confidence_json
 from service.contract.encode.forecast import story_json
 from sim.explain.ahead import Arrival, CrashAhead, StuckAhead
@@ -46,6 +47,7 @@ def safe_move_json(found: SafeMove) -> Json:
         "hit": None if found.hit is None else _cause_json(found.hit),
         "then": None if found.then is None else foresight_json(found.then),
         "open": found.open,
+        "assurance": assurance_json(found.assurance),
     }
 
 

@@ -27,7 +27,13 @@ def explanation_json(explanation: Explanation, texts: Sequence[str]) -> Json:
         "foil": explanation.foil,
         "causes": [_cause_json(cause, explanation) for cause in explanation.causes],
         "chain": [
-            {"blocker": link.blocker, "by": link.by, "move": link.move, "behind": link.behind}
+            {
+                "blocker": link.blocker,
+                "by": link.by,
+                "move": link.move,
+                "behind": link.behind,
+                **({} if link.leads is None else {"leads": link.leads}),
+            }
             for link in explanation.chain
         ],
         "shown": _shown_json(explanation),
@@ -102,7 +108,7 @@ def _cause_json(cause: Cause, explanation: Explanation) -> Json:
 def _shown_json(explanation: Explanation) -> Json:
     """What to point at while it is read, where it stood: the causes, what blocked the foil, the chain."""
     ids = [cause.id for cause in (*explanation.causes, *explanation.also) if cause.cell is not None]
-    ids += [name for link in explanation.chain for name in (link.blocker, link.by)]
+    ids += [name for link in explanation.chain for name in (link.blocker, link.by) if name]
     if explanation.foil is not None:
         ids += explanation.decision.option(explanation.foil).causes
     world = explanation.moment.world

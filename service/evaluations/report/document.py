@@ -17,12 +17,13 @@ from service.evaluations.report.figures import (
     pairs_table,
 )
 from service.evaluations.report.plots import Plot, draw_plots
+from service.evaluations.report.success_map import map_tables
 from service.narration.evaluation import EvaluationWords
 from service.sessions.persistence.link import pack_recording
 from service.sessions.persistence.recording import FORMAT, VERSION
 from service.version import VERSION as PROGRAM
-from sim.evaluate.failures import MOST
-from sim.evaluate.spec import DETAILED, Evaluation
+from sim.evaluate.failures import most_of
+from sim.evaluate.spec import Evaluation
 
 __all__ = ["Cell", "Document", "Table", "episode_link", "make_document"]
 
@@ -44,18 +45,24 @@ def make_document(
     spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords, language: str, base: str = ""
 ) -> Document:
     """The report of an evaluation. `base`: the address of a service whose page opens the episodes."""
-    plots = draw_plots(spec, summary, words)
     behind = Behind(summary["examples"])
+    plots = draw_plots(spec, summary, words, behind)
     tables = [
+        *map_tables(summary, words, behind),
         *cases_table(spec, summary, words, behind),
         figures_table(spec, summary, words, behind),
         *pairs_table(spec, summary, words, behind),
         *_look(spec, summary, words, base),
     ]
     method = [
-        words.label("drawn", told=words.whole(spec.config)),
-        words.label("method", seed=spec.seed, close=min(DETAILED, spec.episodes)),
+        words.label("drawn" if spec.world is None else "driven", told=words.whole(spec.config)),
+        words.label(
+            "method" if spec.world is None else "method_this",
+            seed=spec.seed,
+            close=min(spec.detailed, spec.episodes),
+        ),
         *([words.label("method_cases")] if spec.cases else []),
+        *([words.label("method_map")] if spec.axes else []),
         words.label("program", version=PROGRAM, rules=spec.config.rules),
     ]
     return Document(
@@ -89,8 +96,9 @@ def _look(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords, 
                 Cell("" if link is None else words.label("open", tick=each["tick"]), link),
             ]
         )
-    key = "legend" if spec.world is None else "legend_this"
-    return [Table(words.label("look"), rows, words.label(key, most=MOST))]
+    one_road = "legend_this" if spec.scenario_name is None else "legend_its"
+    key = "legend" if spec.world is None else one_road
+    return [Table(words.label("look"), rows, words.label(key, most=most_of(spec)))]
 
 
 def episode_link(spec: Evaluation, example: Mapping[str, Any], base: str = "") -> str | None:

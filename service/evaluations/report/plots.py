@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from io import StringIO
 from typing import TYPE_CHECKING, Any, Final
 
+from service.evaluations.report.figures import Behind
+from service.evaluations.report.success_map import draw_map
 from service.narration.evaluation import EvaluationWords
 from sim.evaluate.spec import Evaluation
 
@@ -28,7 +30,9 @@ class Plot:
     svg: str
 
 
-def draw_plots(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords) -> list[Plot] | None:
+def draw_plots(
+    spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords, behind: Behind
+) -> list[Plot] | None:
     """The plots; None where matplotlib is not installed."""
     try:
         import matplotlib
@@ -37,7 +41,17 @@ def draw_plots(spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWo
     # Text stays text, and the same figures make the same file.
     with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "roadtalk", "font.size": 10}):
         plots = [Plot(words.label("rates"), words.label("rates_alt"), _rates(spec, summary, words))]
-        if spec.cases:
+        if spec.axes is not None:
+            maps = summary["map"]
+            plots = [
+                Plot(
+                    words.label("map_of", planner=words.planner(planner)),
+                    words.label("map_alt", planner=words.planner(planner)),
+                    _svg(draw_map(maps, planner, words, behind)),
+                )
+                for planner in spec.planners
+            ] + plots
+        elif spec.cases:
             plots.append(
                 Plot(words.label("by_case"), words.label("by_case_alt"), _cases(spec, summary, words))
             )

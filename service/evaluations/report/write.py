@@ -29,15 +29,19 @@ th { vertical-align: bottom; }
 td { white-space: nowrap; }
 th, td { padding: .25rem .8rem .25rem 0; border-bottom: 1px solid #8886; text-align: left; }
 figure { margin: 1rem 0; background: #fff; color: #000; padding: .5rem; border-radius: .4rem; }
-figure svg { width: 100%; height: auto; }
-.wide { overflow-x: auto; }
+figure svg { width: 100%; min-width: 34rem; height: auto; }
+.wide, figure { overflow-x: auto; }
 tr:target td { background: #fd06; }
 th:first-child, td:first-child { padding-left: .3rem; }
 .small { font-size: .85rem; opacity: .8; }
 progress { width: 100%; }
+a { color: #1f5fdc; }
+@media (prefers-color-scheme: dark) { body { background: #121212; } a { color: #8ab4ff; } }
 </style>
+<main>
 <h1>$title</h1>
 $body
+</main>
 </html>
 """)
 
@@ -48,7 +52,8 @@ def write_html(document: Document, words: EvaluationWords) -> str:
     parts += [f"<p>{escape(each)}</p>" for each in document.paragraphs]
     for plot in document.plots:
         parts.append(f"<h2>{escape(plot.title)}</h2>")
-        parts.append(f'<figure role="img" aria-label="{escape(plot.alt)}">{plot.svg}</figure>')
+        # Wider than a phone, hence to be moved by keys as well.
+        parts.append(f'<figure role="img" aria-label="{escape(plot.alt)}" tabindex="0">{plot.svg}</figure>')
     parts += [_html_table(table) for table in document.tables]
     parts.append(f"<h2>{escape(words.label('how'))}</h2>")
     notes = [*document.method, *([document.no_plots] if document.no_plots else [])]
@@ -60,21 +65,28 @@ def write_html(document: Document, words: EvaluationWords) -> str:
 
 def write_progress(title: str, language: str, done: int, total: int) -> str:
     """The page of an evaluation that is not done yet; it loads itself again."""
-    body = f'<p><progress max="{total}" value="{done}"></progress></p><p>{done:,} / {total:,}</p>'
+    bar = f'<progress max="{total}" value="{done}" aria-label="{escape(title)}"></progress>'
+    body = f"<p>{bar}</p><p>{done:,} / {total:,}</p>"
     head = '\n<meta http-equiv="refresh" content="2">'
     return _PAGE.substitute(language=language, head=head, title=escape(title), body=body)
 
 
 def _html_table(table: Table) -> str:
     head, *rows = table.rows
-    lines = ["<tr>" + "".join(f"<th>{escape(cell.text)}</th>" for cell in head) + "</tr>"]
+    lines = ["<tr>" + "".join(map(_html_head, head)) + "</tr>"]
     lines += [_html_row(row) for row in rows]
     note = "" if table.note is None else f'<p class="small">{escape(table.note)}</p>\n'
     return (
-        f'<h2>{escape(table.heading)}</h2>\n{note}<div class="wide"><table>\n'
+        f"<h2>{escape(table.heading)}</h2>\n{note}"
+        f'<div class="wide" role="group" aria-label="{escape(table.heading)}" tabindex="0"><table>\n'
         + "\n".join(lines)
         + "\n</table></div>"
     )
+
+
+def _html_head(cell: Cell) -> str:
+    """A column's name; over links it has none."""
+    return f'<th scope="col">{escape(cell.text)}</th>' if cell.text else "<td></td>"
 
 
 def _html_row(row: Sequence[Cell]) -> str:

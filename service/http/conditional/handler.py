@@ -25,7 +25,7 @@ async def handle_conditionally(request: Request, handler: Handler, policy: Route
             return response
         session = await context_of(request).manager.get(session_id)
         return etag.add_tag(request, response, session.sequence)
-    conditional = session_id is not None and "if-match" in request.headers
+    conditional = session_id is not None and policy.entity_tag and "if-match" in request.headers
     etag.set_check(_precondition(request) if conditional else None)
     if not policy.idempotency_key:
         return await handler(request)

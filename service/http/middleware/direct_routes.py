@@ -25,18 +25,21 @@ from service.http import json
 from service.http.access_control import check_access, count_change
 from service.http.asker import asked_by
 from service.http.body_limit import read_body, receive_again
-from service.http.conditional.etag import add_tag, conditions_of, set_check
+from service.http.conditional.etag import Conditions, add_tag, conditions_of, set_check
 from service.http.conditional.handler import handle_conditionally
 from service.http.deps import Context, context_in
 from service.http.errors import respond
 from service.http.route import ApiRoute
 from service.http.session_json import PREFIX
 from service.problems import ProblemError
+from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
+from service.sessions.session import Session
 from service.store import StoreError
 
 _BEFORE = f"{PREFIX}/sessions/"
 _TEMPLATE = f"{_BEFORE}{{session_id}}"
 _PROVIDED = frozenset(("body", "session", "here", "conditions"))
+_CONDITIONAL_HEADERS = frozenset((b"if-match", b"idempotency-key"))
 _BODY_HEADERS = frozenset((b"content-type", b"content-encoding"))
 
 
@@ -66,11 +69,11 @@ class DirectRoutes:
 
     async def _answer(self, call: DirectCall, scope: Scope, receive: Receive, send: Send) -> None:
         context = context_in(scope)
-        request = Request(scope, receive)
+        request: Request | None = None
         try:
             check_access(scope, context.guard)
             if call.body_type is None:
-                response = await call(request, context, None)
+                response = await call(Request(scope, receive), context, None)
             else:
                 content = await read_body(scope, receive, call.route.body_limit(context.settings))
                 request = Request(scope, receive_again(content, receive))
@@ -86,7 +89,7 @@ class DirectRoutes:
         except ClientDisconnect:
             return
         except (ProblemError, StoreError) as error:
-            response = respond(request, error)
+            response = respond(request or Request(scope, receive), error)
         await response(scope, receive, send)
 
 
@@ -114,16 +117,15 @@ class DirectCall:
     async def __call__(self, request: Request, context: Context, body: BaseModel | None) -> Response:
         """The response of the endpoint. Raises what the ordinary way raises."""
         session_id = request.scope["path_params"]["session_id"]
+        if body is not None and not _is_conditional(request.scope):
+            set_check(None)
+            session = await context.manager.get(session_id)
+            return await self._call_endpoint(session, context, body, _no_conditions)
 
         async def handle(request: Request) -> Response:
-            given: dict[str, Any] = {"session": await context.manager.get(session_id)}
-            if body is not None:
-                given["body"] = body
-            if self._needs_here:
-                given["here"] = context
-            if self._needs_conditions:
-                given["conditions"] = await conditions_of(request)
-            return await self._endpoint(**given)
+            session = await context.manager.get(session_id)
+            conditions = await conditions_of(request) if self._needs_conditions else _no_conditions
+            return await self._call_endpoint(session, context, body, conditions)
 
         if body is None and not self._needs_here:  # the present state: no more than its tag is conditional
             set_check(None)
@@ -131,3 +133,24 @@ class DirectCall:
             return add_tag(request, await self._endpoint(session=session), session.sequence)
 
         return await handle_conditionally(request, handle, self.route.policy)
+
+    def _call_endpoint(
+        self, session: Session, context: Context, body: BaseModel | None, conditions: Conditions
+    ) -> Awaitable[Response]:
+        given: dict[str, Any] = {"session": session}
+        if body is not None:
+            given["body"] = body
+        if self._needs_here:
+            given["here"] = context
+        if self._needs_conditions:
+            given["conditions"] = conditions
+        return self._endpoint(**given)
+
+
+def _is_conditional(scope: Scope) -> bool:
+    """Whether a request has a header of `service.http.conditional`."""
+    return any(name in _CONDITIONAL_HEADERS for name, _ in scope["headers"])
+
+
+def _no_conditions(_: object) -> Preconditions:
+    return NO_PRECONDITIONS

@@ -27,12 +27,15 @@ from typing import Final, Literal
 import structlog
 from anyio import CapacityLimiter, to_thread
 
+from service.sessions.scheduler.offload import uses_external_planner
 from service.sessions.scheduler.playback_speed import MAX
 from service.sessions.session import Session
 from sim.plan import Decision
 from sim.render import Look, encode, render
 from sim.render.look import PLAIN
+from sim.render.video import DecisionOf, trail_after
 from sim.state import SimState
+from sim.types import Cell, Mode
 
 _LOG = structlog.get_logger(__name__)
 
@@ -94,6 +97,8 @@ class Reel:
         self._phase = 1.0
         self._before: SimState | None = None
         self._moved_at = 0.0
+        self._trail: tuple[Cell, ...] = ()
+        self._stood = False
 
     def __len__(self) -> int:
         return len(self._slots)
@@ -122,16 +127,22 @@ class Reel:
         if last is not None and last.world.tick != run.world.tick:
             forward = run.world.tick > last.world.tick
             before = self._session.timeline.at(run.world.tick - 1) if forward else None
+            follows = before is not None and last.world.tick == before.world.tick
+            self._trail = trail_after(self._trail, before, run) if before is not None and follows else ()
             self._moved_at = now_s
         if before is not None and before.world.tick + 1 == run.world.tick:
             lasts_s = self._lasts_s(run)
             phase = min(1.0, (now_s - self._moved_at) / lasts_s) if lasts_s else 1.0
-        if run is last and phase == self._phase:
+        stands = self._session.paused and phase == 1.0
+        if run is last and phase == self._phase and stands == self._stood:
             return
-        self._run, self._before, self._phase = run, before, phase
+        self._run, self._before, self._phase, self._stood = run, before, phase, stands
         latest = self._session.latest_decision()
         decision = None if latest is None or before is None else latest[0]
-        picture = await to_thread.run_sync(self._draw, run, before, decision, phase, limiter=self._drawing)
+        next_of = self._next_of() if stands else None
+        picture = await to_thread.run_sync(
+            self._draw, run, before, decision, phase, self._trail, next_of, limiter=self._drawing
+        )
         self.drawn += 1
         header = HEADER.pack(MAGIC, VERSION, FORMS[self._wanted.form], phase, run.world.tick)
         self._newest = header + picture
@@ -152,7 +163,22 @@ class Reel:
         pace = self._session.playback_speed
         return 0.0 if pace == MAX else run.config.step_seconds / float(pace)
 
-    def _draw(self, run: SimState, before: SimState | None, decision: Decision | None, phase: float) -> bytes:
+    def _next_of(self) -> DecisionOf | None:
+        """What finds the next decision of a road that stands; a planner of another package is not asked."""
+        timeline = self._session.timeline
+        shown = self._wanted.view == "road" and self._wanted.look.path
+        by_itself = timeline.state.ego().mode is not Mode.MANUAL
+        return timeline.decided if shown and by_itself and not uses_external_planner(timeline) else None
+
+    def _draw(
+        self,
+        run: SimState,
+        before: SimState | None,
+        decision: Decision | None,
+        phase: float,
+        trail: tuple[Cell, ...],
+        next_of: DecisionOf | None,
+    ) -> bytes:
         """Runs in a thread; `draw_now` waits for it."""
         size = (self._wanted.side, self._wanted.side)
         world = None if before is None else before.world
@@ -164,6 +190,8 @@ class Reel:
             phase=phase,
             size=size,
             look=self._wanted.look,
+            trail=trail,
+            coming=None if next_of is None else next_of(run),
         )
         return encode(picture, self._wanted.form)
 

@@ -121,7 +121,7 @@ class _Screen:
             self._task = None
 
     async def _show(self, asked: Subscribe) -> None:
-        look = Look(asked.theme, asked.boxes, asked.figures)
+        look = Look(asked.theme, asked.boxes, asked.figures, asked.path, asked.forecast)
         wanted = frame_stream.Wanted(asked.view, asked.frames, asked.side, look)
         with suppress(WebSocketDisconnect, RuntimeError):  # the client has gone; the reader hears of it
             await self._context.reels.stream_to(

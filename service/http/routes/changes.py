@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import groupby
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import Query, Response
 
@@ -41,8 +41,21 @@ async def list_changes(
         sequence, text = group[0].sequence, said.get(group[0].sequence)
         if text is None:
             dumped = contract.dump(tuple(entry.action for entry in group))
-            told = here.interpreter.aliases.describe(contract.load(dumped), session.language)
+            told = here.interpreter.aliases.describe(contract.load(_in_lanes(dumped)), session.language)
         else:
             told = text
         items.append({"tick": group[0].tick, "sequence": sequence, "text": told, "said": text is not None})
     return json_response({"items": items, "more": len(groups) > limit})
+
+
+def _in_lanes(value: Any) -> Any:
+    """Actions whose cells are told by lane and row, as replies tell them: lanes count from 1."""
+    if isinstance(value, list | tuple):
+        return [_in_lanes(each) for each in value]
+    if not isinstance(value, dict):
+        return value
+    told = {name: _in_lanes(each) for name, each in value.items()}
+    if isinstance(told.get("cell"), list) and len(told["cell"]) == 2:
+        column, row = told.pop("cell")
+        told |= {"lane": column + 1, "row": row}
+    return told

@@ -55,7 +55,7 @@ from service.problems import (
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.scenarios import ScenarioError, read_scenario
-from service.scenarios.begin import evaluation_of_scenario
+from service.scenarios.evaluation import evaluation_of_scenario
 from service.sessions.session import Session
 from service.store import JobRecord
 from sim.config import ConfigError
@@ -66,7 +66,7 @@ from sim.session.errors import EditError
 
 router = api_router("evaluations")
 
-_ALONE = ("find", "runs", "planners", "scenario", "config", "road", "vary", "file")
+_ALONE = ("find", "runs", "planners", "scenario", "config", "road", "vary", "map", "file", "scenario_name")
 """What a sentence says itself."""
 _REPORT_POLICY = {
     "Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
@@ -232,6 +232,8 @@ async def _read_evaluation(
     state = None if session is None else session.run
     if session is not None and (body.scenario or body.config):
         raise invalid([FieldProblem("session", "names the roads already; leave out scenario and config")])
+    if body.scenario_name is not None and (body.scenario or body.config):
+        raise invalid([FieldProblem("scenario_name", "names the roads; leave out scenario and config")])
     if session is None and body.road is not None:
         raise invalid([FieldProblem("road", "is that of a session; name one")])
     if body.text is not None:
@@ -250,7 +252,8 @@ async def _read_evaluation(
     try:
         if isinstance(action, FindWorst):
             return falsification_of(action, config, body.seed)
-        return await to_thread.run_sync(evaluation_of, action, config, state, body.seed)
+        saved = {} if session is None else session.undo_stack.saved_states()
+        return await to_thread.run_sync(evaluation_of, action, config, state, body.seed, saved)
     except EvaluationError as error:
         raise refuse_evaluation(error, refusals(language)) from error
 
@@ -259,11 +262,23 @@ def _typed(body: bodies.NewEvaluation) -> Evaluate | FindWorst:
     """What is asked for in figures. Raises `Invalid`."""
     planners = None if body.planners is None else tuple(body.planners)
     if body.find is None:
-        return Evaluate(runs=body.runs, planners=cast(Any, planners), road=body.road, vary=body.vary)
+        named = cast(Any, planners)
+        axes = None if body.map is None else cast(Any, tuple(body.map))
+        return Evaluate(
+            runs=body.runs,
+            planners=named,
+            road=body.road,
+            scenario_name=body.scenario_name,
+            vary=body.vary,
+            map=axes,
+        )
+    if body.map is not None:
+        raise invalid([FieldProblem("map", "is drawn of episodes; a search draws its worlds itself")])
     if body.vary is not None:
         raise invalid([FieldProblem("vary", "compares episodes; a search draws its worlds itself")])
-    if body.road is not None:
-        raise invalid([FieldProblem("road", "is what is searched for; leave it out")])
+    for name in ("road", "scenario_name"):
+        if getattr(body, name) is not None:
+            raise invalid([FieldProblem(name, "is what is searched for; leave it out")])
     if planners is not None and len(planners) > 1:
         raise invalid([FieldProblem("planners", "is one planner where its failures are searched")])
     return FindWorst(runs=body.runs, planner=cast(Any, planners[0] if planners else None))
@@ -284,7 +299,7 @@ async def _read_sentence(
     raise NotUnderstood(sentence, errors=[FieldProblem("text", sentence)], understood=[text])
 
 
-_BESIDE_FILE = ("text", "find", "scenario", "config", "vary", "session", "road")
+_BESIDE_FILE = ("text", "find", "scenario", "config", "vary", "map", "session", "road", "scenario_name")
 """What a scenario file says itself."""
 
 

@@ -20,11 +20,19 @@ from service.sessions.narrator_protocol import NarratorProtocol
 from sim.decide import sense
 from sim.forecast import predict
 from sim.session.timeline import Timeline
+from sim.state import SimState
+from sim.transition import step
+from sim.types import Cell, Outcome
 
 router = api_router("watching")
 
 MOST_AHEAD = 16
 """Ticks that are forecast at most."""
+
+Ahead = Annotated[int, Query(ge=1, le=MOST_AHEAD, description="How far ahead.")]
+PathTicks = Annotated[
+    int, Query(ge=0, le=MOST_AHEAD, description="Over how many ticks the vehicle's own path is driven ahead.")
+]
 
 
 @router.get(
@@ -36,10 +44,11 @@ MOST_AHEAD = 16
 async def read_forecast(
     session: TheSession,
     here: Here,
-    ticks: Annotated[int, Query(ge=1, le=MOST_AHEAD, description="How far ahead.")] = 1,
+    ticks: Ahead = 1,
     tick: Annotated[
         int | None, Query(ge=0, le=MAX_INTEGER, description="At an earlier tick than now.")
     ] = None,
+    path: PathTicks = 0,
 ) -> Response:
     """What the vehicle decides at a tick, and the movers rolled out from there as the planners see it.
 
@@ -48,12 +57,14 @@ async def read_forecast(
     way = session.timeline.copy()
     if tick is not None:
         check_tick(tick, way.tick)
-    ticks_to = 1 if tick is None else 1 + way.work_to(tick)
-    value = await run_on_timeline(here, way, ticks_to, _expect, session.narrator, way, tick, ticks)
+    ticks_to = path + (1 if tick is None else 1 + way.work_to(tick))
+    value = await run_on_timeline(here, way, ticks_to, _expect, session.narrator, way, tick, ticks, path)
     return json_response(value)
 
 
-def _expect(narrator: NarratorProtocol, way: Timeline, tick: int | None, ticks: int) -> dict[str, Any]:
+def _expect(
+    narrator: NarratorProtocol, way: Timeline, tick: int | None, ticks: int, path: int
+) -> dict[str, Any]:
     run = way.state if tick is None else way.at(tick)
     step = way.taken(run)
     decision = None if step is None else step.decision
@@ -70,4 +81,16 @@ def _expect(narrator: NarratorProtocol, way: Timeline, tick: int | None, ticks: 
     ]
     value = None if decision is None else told_decision(narrator, run, decision)
     exact = ticks == 1 or not run.config.reacting
-    return {"tick": now, "decision": value, "exact": exact, "ahead": ahead}
+    told = {"tick": now, "decision": value, "exact": exact, "ahead": ahead}
+    return told | {"path": _drive_on(run, path)} if path else told
+
+
+def _drive_on(run: SimState, ticks: int) -> list[Cell]:
+    """The first ego's cells in the ticks to come, until its episode ends."""
+    cells = []
+    for _ in range(ticks):
+        if run.world.outcome is not Outcome.RUNNING:
+            break
+        run = step(run).state
+        cells.append(run.world.road.cell(run.world.avs[0]))
+    return cells

@@ -25,6 +25,7 @@ async def read_health(here: Here) -> Response:
             "sessions": here.manager.live_count,
             "watchers": here.manager.subscriber_count,
             "tick_lateness": here.clock.lateness(),
+            "shards": [],
         }
     )
 

@@ -13,6 +13,7 @@ from service.http.deps import Here
 from service.http.errors import problem_responses
 from service.http.responses import json_response
 from service.http.route import api_router
+from service.interpreter.aliases import example_of, taught_of
 from service.interpreter.guide import Intent
 from service.interpreter.interpreter import language_of
 from service.interpreter.preview import Preview
@@ -57,16 +58,17 @@ async def read_language(
         told["taught"] = [
             {
                 "phrase": each.phrase,
-                "meaning": each.meaning,
-                "sentence": interpreter.aliases.describe(contract.load(each.meaning), language),
+                "meaning": contract.dump(each.meaning),
+                "sentence": interpreter.aliases.sentence(each, language),
+                "parameters": [parameter.name for parameter in each.parameters or ()],
             }
-            for each in taught
+            for each in map(taught_of, taught)
         ]
         told["completions"], told["preview"] = [], None
     else:
         topic = interpreter.topic(live, language)
         told["intents"], told["taught"] = [], []
-        phrases = [each.phrase for each in taught]
+        phrases = [example_of(taught_of(each)) for each in taught]
         told["completions"] = [] if guide is None else await guide.completions(prefix, live, topic, phrases)
         found = None if live is None else await interpreter.preview(prefix, live, language)
         told["preview"] = _preview_json(found)

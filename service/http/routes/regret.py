@@ -6,16 +6,18 @@ from collections.abc import Iterator
 from math import hypot
 from typing import Annotated, Any
 
-from fastapi import Query, Response
+from fastapi import Query, Request, Response
 
 from service.contract.forecast import Judged
 from service.http.deps import Here, TheSession
 from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
+from service.http.prefer import ACCEPTED, Prefer, respond_async
 from service.http.responses import json_response
 from service.http.route import api_router
 from service.http.ticks import check_tick
 from service.problems import Invalid, NotRestorable, UnknownSession
+from service.work.progress import tell
 from service.work.units import search_units
 from sim.oracle.regret import regret
 from sim.session.timeline import Timeline
@@ -34,25 +36,35 @@ SEARCHES = 4
     "/sessions/{session_id}/regret",
     response_model=Judged,
     summary="What decisions cost against the best",
-    responses=problem_responses(UnknownSession, Invalid, NotRestorable),
+    responses=ACCEPTED | problem_responses(UnknownSession, Invalid, NotRestorable),
 )
 async def read_regret(
     session: TheSession,
     here: Here,
+    request: Request,
     first: Annotated[int, Query(alias="from", ge=0, le=MAX_INTEGER, description="First tick.")] = 0,
     limit: Annotated[int, Query(ge=1, le=MOST_JUDGED)] = 60,
+    prefer: Prefer = None,  # noqa: ARG001
 ) -> Response:
     """Each decision against the optimum of its own moment, which is searched for here and now."""
     way = session.timeline.copy()
     check_tick(first, way.tick, "from")
     stop = min(way.tick, first + limit)
     units = (stop - first) * SEARCHES * search_units(way.state)
-    items = await here.manager.work.run(units, _judge_all, way, first, stop)
-    return json_response({"from": first, "now": way.tick, "items": items, "more": stop < way.tick})
+
+    async def make() -> Response:
+        items = await here.manager.work.run(units, _judge_all, way, first, stop)
+        return json_response({"from": first, "now": way.tick, "items": items, "more": stop < way.tick})
+
+    return await respond_async(request, here, session.id, "regret", units, make)
 
 
 def _judge_all(way: Timeline, first: int, stop: int) -> list[dict[str, Any]]:
-    return list(_judge(way, first, stop))
+    judged = []
+    for each in _judge(way, first, stop):
+        judged.append(each)
+        tell((each["tick"] + 1 - first) / (stop - first))
+    return judged
 
 
 def _judge(way: Timeline, first: int, stop: int) -> Iterator[dict[str, Any]]:

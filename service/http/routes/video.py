@@ -6,21 +6,26 @@ away. Leaves out how a film is made (`sim.render.video`).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import count
 from typing import Annotated, Any, Literal
 
-from fastapi import Query, Response
+from fastapi import Query, Request, Response
 
 from service.http.deps import Here, TheSession
 from service.http.errors import problem_responses
 from service.http.pagination import MAX_INTEGER
+from service.http.prefer import ACCEPTED, Prefer, respond_async
 from service.http.responses import etag
 from service.http.route import api_router
-from service.http.routes.frame import View
+from service.http.routes.frame import Boxes, Colours, Forecast, View
 from service.http.validation import invalid
 from service.problems import FieldProblem, Invalid, NotAvailable, NotRestorable, UnknownSession
+from service.work.progress import tell
 from service.work.units import config_tick_units, move_units, state_tick_units
-from sim.render import Look, Theme
+from sim.render import Look
 from sim.render.video import FPS, VideoMissingError, frame_count, has_video, render_video
 from sim.session.timeline import Timeline
 from sim.state import SimState
@@ -51,11 +56,12 @@ _FILM: dict[int | str, dict[str, Any]] = {
     "/sessions/{session_id}/film",
     response_class=Response,
     summary="A stretch of ticks as a film",
-    responses=_FILM | problem_responses(UnknownSession, Invalid, NotAvailable, NotRestorable),
+    responses=_FILM | ACCEPTED | problem_responses(UnknownSession, Invalid, NotAvailable, NotRestorable),
 )
 async def read_video(
     session: TheSession,
     here: Here,
+    request: Request,
     first: Annotated[
         int | None,
         Query(alias="from", ge=0, le=MAX_INTEGER, description="First tick; default: the latest 20."),
@@ -69,8 +75,11 @@ async def read_video(
     fps: Annotated[int, Query(ge=1, le=60, description="Frames a second; of a GIF at most 50.")] = 10,
     view: Annotated[View, Query(description="The road as one sees it, or its plan.")] = "road",
     side: Annotated[int, Query(ge=64, le=1080, description="The longer side, in pixels.")] = 480,
-    theme: Annotated[Theme, Query(description="Colours by day, or dark ones.")] = "dark",
-    boxes: Annotated[bool, Query(description="Bounding boxes around what moves.")] = True,
+    theme: Colours = "dark",
+    boxes: Boxes = True,
+    path: Annotated[bool, Query(description="The way behind the vehicle, and its move.")] = True,
+    forecast: Forecast = False,
+    prefer: Prefer = None,  # noqa: ARG001
 ) -> Response:
     """From one past tick to another in real time, gliding as on screen."""
     end = session.timeline.tick if last is None else last
@@ -78,14 +87,20 @@ async def read_video(
     most = here.settings.max_film_frames
     _check(session.timeline.tick, start, end, form, fps, most)
     timeline, headers = session.timeline.copy(), etag(session.sequence)
-    wanted = _Film(view, form, fps, side, most, Look(theme, boxes))
+    wanted = _Film(view, form, fps, side, most, Look(theme, boxes, path=path, forecast=forecast))
     units = _units(timeline, start, end, wanted)
     here.manager.work.check(units)
-    # However short: the drawing library is not made for several threads.
-    data = await here.manager.work.in_process(units, _make, timeline, start, end, wanted)
-    kind = "image/gif" if form == "gif" else "video/mp4"
-    name = f'inline; filename="roadtalk-{session.id}-{start}-{end}.{form}"'
-    return Response(data, 200, {"Cache-Control": "no-store", "Content-Disposition": name, **headers}, kind)
+
+    async def make() -> Response:
+        # However short: the drawing library is not made for several threads.
+        data = await here.manager.work.in_process(units, _make, timeline, start, end, wanted)
+        kind = "image/gif" if form == "gif" else "video/mp4"
+        name = f'inline; filename="roadtalk-{session.id}-{start}-{end}.{form}"'
+        return Response(
+            data, 200, {"Cache-Control": "no-store", "Content-Disposition": name, **headers}, kind
+        )
+
+    return await respond_async(request, here, session.id, "film", units, make)
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,8 +130,22 @@ def _make(timeline: Timeline, start: int, end: int, film: _Film) -> bytes:
     runs = list(timeline.between(start, end + 1))
     _check_frames(runs, film.form, film.fps, film.side, film.most)
     size = (film.side, film.side)
+    frames, drawn = frame_count(runs, film.fps), count(1)
+
+    @contextmanager
+    def frame_told() -> Iterator[None]:
+        yield
+        tell(next(drawn) / (frames + 1))  # and something for writing the file
+
     return render_video(
-        film.view, runs, film.form, fps=film.fps, size=size, decision_of=timeline.decided, look=film.look
+        film.view,
+        runs,
+        film.form,
+        fps=film.fps,
+        size=size,
+        turn=frame_told,
+        decision_of=timeline.decided,
+        look=film.look,
     )
 
 

@@ -59,14 +59,19 @@ class Retention:
         await self._store.touch(list(self._manager.live_sessions), now)
         if self._days is None:
             return 0
-        since, deleted = now - timedelta(days=self._days), 0
-        while batch := await self._store.unused(since, BATCH, named=self._named):
-            gone = [each for each in batch if await self._manager.expire(each)]
+        since, deleted, looked_up = now - timedelta(days=self._days), 0, BATCH
+        while batch := await self._store.unused(since, looked_up, named=self._named):
+            mine = [each for each in batch if self._manager.owns(each)]
+            gone = [each for each in mine if await self._manager.expire(each)]
             for each in gone:
                 self._expired(each)
             deleted += len(gone)
-            if len(gone) < len(batch):
+            if len(gone) < len(mine):
                 break  # somebody uses one of them just now: the next sweep looks again
+            if not mine:
+                if len(batch) < looked_up:
+                    break  # the rest is for other shards to delete
+                looked_up *= 2
             await asyncio.sleep(PAUSE_S)
         if deleted:
             _LOG.info("retention", count=deleted, days=self._days)

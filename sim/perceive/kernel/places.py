@@ -5,7 +5,9 @@
 - `boards` (uint8): the bytes of the boards `ROAD_RIGHT`, `BELIEVED_FIXED` and `FOLLOWED_RIGHT`;
 - `layers` (int16): log odds by layer and cell, changed in place;
 - `tables`: `sim.perceive.kernel.tables.SuiteTables`;
-- `hidden` (uint8): by rows ahead and column, whether a body hides the cell;
+- `spots` (int64): rows ahead and column of every thing and vehicle;
+- `hidden` (int16): by cell, 1 where a body hides it; the last row is the vehicle's own, the first that of
+  the furthest cell that any device sees;
 - `reports` (int64): kind, cell, heading (1 right, 0 left) and the place of the thing among all, −1 for a
   false alarm;
 - `shown` (int64): the head (`SHOWN_FIXED` to `SHOWN_HEAD`), then cell, kind and thing of each that is shown,

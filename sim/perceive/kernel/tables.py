@@ -71,14 +71,17 @@ class SuiteTables(NamedTuple):
     detection: NDArray[np.float64]
     """the same as a fraction"""
     miss: NDArray[np.int16]
-    """(device, layer, rows, place): what a look without a report adds to the log odds"""
+    """(device, column, layer, cells): what a look without a report adds to the log odds, by the column of the
+    vehicle; the cells are those of the rows it may see, the last of which is its own"""
+    odds: NDArray[np.float64]
+    """(device, kind, rows, place): of detection, against a miss; 0 where nothing can be detected"""
     shifts: NDArray[np.int8]
     """(device, rows, place, shift, 2): rows ahead and columns aside"""
     shares: NDArray[np.float64]
     """(device, rows, place, shift): its probability; 0 behind the last"""
     halves: NDArray[np.int64]
     """(kind, 2): half the extent of a body across and along, 0 where it hides nothing"""
-    shadows: NDArray[np.int16]
+    shadows: NDArray[np.int8]
     """(kind, place, rows, rows, 2): the first and last column, less the vehicle's, that a body hides in a
     row; the first axes are where the body is. Filled by the kernel, since it takes long otherwise"""
 
@@ -140,11 +143,12 @@ def suite_tables(
         np.zeros((count, rows, places), np.uint8),
         np.zeros(grid, np.int64),
         np.zeros(grid),
-        np.zeros((count, LAYERS, rows, places), np.int16),
+        np.zeros((count, columns, LAYERS, rows * columns), np.int16),
+        np.zeros(grid),
         np.zeros((count, rows, places, SHIFTS, 2), np.int8),
         np.zeros((count, rows, places, SHIFTS)),
         np.array([_half(kind) for kind in (*NUMBER, Kind.AV)], np.int64),
-        np.zeros((KINDS_SEEN + 1, places, rows, rows, 2), np.int16),
+        np.zeros((KINDS_SEEN + 1, places, rows, rows, 2), np.int8),
     )
     for device, model in enumerate(models):
         _fill(tables, device, model)
@@ -164,7 +168,11 @@ def _fill(tables: SuiteTables, device: int, model: SensorModel) -> None:
         tables.drawn[device, number, :rows] = seen.drawn
         tables.detection[device, number, :rows] = seen.detection
     tables.seen[device] = tables.drawn[device].any(axis=0)
-    tables.miss[device, :, :rows] = layer_misses(model)[:, ::-1]
+    tables.odds[device] = tables.detection[device] / (1.0 - tables.detection[device]) * tables.seen[device]
+    misses, columns = layer_misses(model), model.columns
+    for column in range(columns):
+        near = misses[:, :, columns - 1 - column : 2 * columns - 1 - column]
+        tables.miss[device, column, :, -rows * columns :] = near.reshape(LAYERS, -1)
     for ahead, row in enumerate(model.shifts):
         for place, found in enumerate(row):
             for number, (by_rows, by_columns, share) in enumerate(found):

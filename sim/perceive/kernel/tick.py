@@ -11,7 +11,7 @@ import numpy as np
 
 from sim.compilation import compiled
 from sim.perceive.belief import LAYERS
-from sim.perceive.kernel.look import fill_shadows, hide, look
+from sim.perceive.kernel.look import fill_shadows, hide, look, place_things
 from sim.perceive.kernel.places import (
     AVS,
     COLUMNS,
@@ -27,8 +27,8 @@ from sim.perceive.kernel.places import (
 )
 from sim.perceive.kernel.predict import predict
 from sim.perceive.kernel.show import show
-from sim.perceive.kernel.tables import KINDS_SEEN, SHIFTS
-from sim.perceive.kernel.update import weigh_misses, weigh_report
+from sim.perceive.kernel.tables import KINDS_SEEN
+from sim.perceive.kernel.update import SOURCES, weigh_misses, weigh_report
 from sim.perceive.log_odds import LIMIT
 
 __all__ = ["fill_shadows", "sense_tick"]
@@ -48,18 +48,23 @@ def sense_tick(numbers, boards, before, threshold, mixing, least, tables, layers
     cells = columns * numbers[ROWS]
     layers[:] = before
     if numbers[REMEMBERED]:
-        predict(numbers, boards, layers, mixing, least)
+        predict(numbers, boards, layers, mixing, least, numbers[ROWS])
     count_of_devices = len(tables.devices)
-    hidden = np.zeros((tables.seen.shape[1], columns), np.uint8)
-    hide(numbers, tables, hidden)
+    hidden = np.zeros(tables.seen.shape[1] * columns, np.int16)
+    spots = np.empty((numbers[THINGS] + numbers[AVS], 2), np.int64)
+    place_things(numbers, spots)
+    hide(numbers, tables, spots, hidden)
     reports = np.empty((count_of_devices * (numbers[THINGS] + KINDS_SEEN), 4), np.int64)
-    sources, weights = np.empty(2 * SHIFTS, np.int64), np.empty((2 * SHIFTS, 2))
+    sources, weights, ratios = np.empty((2, SOURCES), np.int64), np.empty((2, SOURCES)), np.empty(SOURCES)
+    words = ratios.view(np.int64)
     first = 0
     for device in range(count_of_devices):
-        last = look(numbers, boards, tables, hidden, device, reports, first)
+        last = look(numbers, boards, tables, spots, hidden, device, reports, first)
         weigh_misses(numbers, layers, tables, hidden, device)
         for report in range(first, last):
-            weigh_report(numbers, layers, tables, hidden, device, reports[report], sources, weights)
+            weigh_report(
+                numbers, layers, tables, hidden, device, reports[report], sources, weights, ratios, words
+            )
         first = last
     at = HEAD + 3 * numbers[THINGS]
     for vehicle in range(numbers[AVS]):

@@ -21,7 +21,7 @@ from sim.plan.sandbox import worker
 from sim.plan.sandbox.answer import Answer, FaultError
 from sim.plan.sandbox.answer_cache import answers, key_of
 from sim.plan.sandbox.codec import question
-from sim.plan.sandbox.worker import NoAnswerError
+from sim.plan.sandbox.planner_process import NoAnswerError
 
 NO_WAITING: Final = "is not waited for here"
 

@@ -11,7 +11,9 @@ import pytest
 from service.app import create_app
 from service.sessions.persistence.retention import BATCH, Retention
 from service.settings import Settings
+from service.sharding import Shard
 from service.store import MemoryStore, StoreError
+from sim.config import Config
 from tests.support.fakes import FewSentences, HandClock
 from tests.support.service import Service
 
@@ -188,3 +190,30 @@ async def test_a_store_that_fails_deletes_nothing_and_the_next_sweep_goes_on(ser
     await years.sleep(asleep)
     years.manager._services.store.delete = delete
     assert await years.after(60) == 1
+
+
+async def test_a_shard_deletes_its_own_however_many_are_of_others() -> None:
+    """A session of another shard may have been woken there a moment ago."""
+    store, clock = MemoryStore(), HandClock()
+    apps = [
+        create_app(
+            Settings(database="memory:"),
+            store=store,
+            language=FewSentences(),
+            clock=clock,
+            shard=Shard(number, 2),
+        )
+        for number in range(2)
+    ]
+    for app, count in zip(apps, (BATCH + 5, 3), strict=True):
+        manager = app.state.context.manager
+        await manager.open()
+        for _ in range(count):
+            await manager.create(None, Config(), paused=True)
+        await manager.evict(list(manager.live_sessions.values()), lambda _: True)
+    await store.touch([each.id for each in await store.newest(1)], NOW + timedelta(days=99))
+    last = Years(Service(apps[1], None, clock, store), keep_sessions_days=30)  # type: ignore[arg-type]
+    assert await last.after(99) == 2
+    first = Years(Service(apps[0], None, clock, store), keep_sessions_days=30)  # type: ignore[arg-type]
+    assert await first.after(99) == BATCH + 5
+    assert await store.count() == 1

@@ -12,6 +12,7 @@ from sim.session.errors import EditError
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Move, Outcome
+from tests.support.judged_drives import drives
 from tests.support.roads import road, run_on
 from tools.check_what_if import checked
 
@@ -86,3 +87,20 @@ def test_of_the_past_only_the_change_differs() -> None:
     assert found.said_since == 1
     assert found.real.tick == found.changed.tick == 4
     assert what_if(timeline, [NEAREST], 9).said_since == 0
+
+
+def test_where_only_one_side_is_left_to_chance_both_have_chances() -> None:
+    told = 0
+    for timeline in drives(40, 3, "priority"):
+        state = timeline.state
+        if state.config.certain or state.world.outcome is not Outcome.RUNNING:
+            continue
+        found = what_if(timeline, [Set(parameter="courtesy", value=0.0)])
+        assert found.done[-1].state.config.certain
+        real, changed = found.real_chances, found.changed_chances
+        assert real is not None
+        assert changed is not None
+        assert changed.settled
+        assert found.by_chance is not real.settled
+        told += found.by_chance
+    assert told > 3

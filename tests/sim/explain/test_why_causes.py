@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import combinations
 
 import pytest
 
 from sim.explain import Role, why
+from sim.explain.why_causes import minimal_sufficient_set
 from sim.oracle.ddmin import ddmin
 from sim.types import Mode, Move
 from tests.support.moments import all_ids, moments, move_after
@@ -105,3 +107,24 @@ def test_a_move_held_back_is_explained_by_what_it_would_have_met() -> None:
 @pytest.mark.parametrize("needed", [set(), {"a"}, {"b", "d"}, set("abcdefg")])
 def test_sparing_leaves_what_is_needed(needed: set[str]) -> None:
     assert set(ddmin("abcdefg", lambda kept: needed <= set(kept))) == needed
+
+
+class OneOfMany:
+    """A fact that holds while any of these is left; and two of them alone flip it as well."""
+
+    def __init__(self, names: list[str]) -> None:
+        self.names = frozenset(names)
+
+    def without(self, names: Iterable[str]) -> bool:
+        gone = frozenset(names)
+        return gone != self.names and gone != frozenset(("b", "c"))
+
+    def keeping(self, names: Iterable[str]) -> bool:
+        return self.without(self.names - frozenset(names))
+
+
+@pytest.mark.parametrize(("names", "group"), [("abcd", ()), ("adefgh", tuple("adefgh")), ("adefghi", ())])
+def test_no_group_is_told_of_which_a_part_does_or_might(names: str, group: tuple[str, ...]) -> None:
+    """Every part of up to six is tried; of more, a part may do though no one can be spared."""
+    _, groups, _ = minimal_sufficient_set(OneOfMany([*names]), True, [*names])
+    assert groups["a"] == group

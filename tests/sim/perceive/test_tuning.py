@@ -5,7 +5,10 @@ from __future__ import annotations
 import pytest
 
 from sim.actions import Adjust, Set
+from sim.batch import Batch
 from sim.config import Config, ConfigError
+from sim.perceive import NO_BELIEF, Belief, perceive
+from sim.perceive.belief import GridBelief
 from sim.perceive.detection import detection_chance
 from sim.perceive.grid_sensor import looks
 from sim.perceive.parameters import LIDAR, SUITES
@@ -14,7 +17,8 @@ from sim.session.settings import change_setting
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.statistics import wilson
-from sim.types import Kind
+from sim.transition import step
+from sim.types import Kind, Outcome
 from tests.support.roads import road, run_on
 
 EMPTY = road(*["......"] * 7, "..A...", "......")
@@ -113,3 +117,46 @@ def test_other_numbers_are_refused(name: str, value: float) -> None:
         Config(**{name: value})  # type: ignore[arg-type]
     assert [problem.field for problem in refused.value.problems] == [name]
     assert change_setting(Config(), Set(parameter="sensor_noise", value=0.1)).sensor_noise == 0.1
+
+
+@pytest.mark.parametrize("sensor", ["camera", "fusion"])
+def test_with_latency_a_look_is_known_a_tick_later(sensor: str) -> None:
+    """What is on the road now has no part in what is seen; the belief holds what was looked at."""
+    late = Config(sensor=sensor, sensor_latency=1, seed=5, weather="rain")
+    state = SimState.start(late)
+    prompt_belief: Belief = NO_BELIEF
+    differs = 0
+    for tick in range(12):
+        seen, belief = perceive(state.world, late, 0, state.belief)
+        at_once, prompt = perceive(state.world, late.with_parts(sensor_latency=0), 0, prompt_belief)
+        assert isinstance(belief, GridBelief)
+        assert isinstance(prompt, GridBelief)
+        assert belief.layers == prompt.layers
+        if tick == 0:
+            assert (seen.right, seen.left, seen.boards) == (at_once.right, at_once.left, at_once.boards)
+        else:
+            things = frozenset((*state.world.movers.values(), *state.world.hazards.values()))
+            blind, _ = perceive(state.world.without(things), late, 0, state.belief)
+            assert (seen.right, seen.left, seen.boards) == (blind.right, blind.left, blind.boards)
+            differs += seen.movers.keys() != at_once.movers.keys()
+        state, prompt_belief = step(state).state, prompt
+        if state.world.outcome is not Outcome.RUNNING:
+            break
+    assert differs
+
+
+def test_latency_is_nothing_to_the_perfect_sensor_and_nothing_for_a_batch() -> None:
+    assert drive_digests(Config(seed=3, sensor_latency=1)) == drive_digests(Config(seed=3))
+    with pytest.raises(ValueError, match="late"):
+        Batch([Config(sensor="lidar", sensor_latency=1)])
+    with pytest.raises(ConfigError):
+        Config(sensor_latency=2)
+
+
+def drive_digests(config: Config) -> list[str]:
+    """Of every tick of the first episode."""
+    state, found = SimState.start(config), []
+    while state.world.outcome is Outcome.RUNNING:
+        found.append(state.world.digest())
+        state = step(state).state
+    return found

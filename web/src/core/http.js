@@ -24,6 +24,7 @@ export class Refused extends Error {
  * @property {unknown} [body]  sent as JSON
  * @property {AbortSignal} [signal]  an abort is thrown on as it is
  * @property {typeof fetch} [http]
+ * @property {Record<string, string>} [headers]  beside those that every request has
  */
 
 /**
@@ -32,9 +33,9 @@ export class Refused extends Error {
  * @param {Asking} [asking]
  * @returns {Promise<Response>} throws `Refused`
  */
-export async function ask(path, { method = "GET", body, signal, http = fetch } = {}) {
+export async function ask(path, { method = "GET", body, signal, http = fetch, headers: more = {} } = {}) {
   /** @type {Record<string, string>} */
-  const headers = { "accept-language": LANGUAGE };
+  const headers = { "accept-language": LANGUAGE, ...more };
   if (body !== undefined) headers["content-type"] = "application/json";
   let response;
   try {

@@ -8,6 +8,8 @@ const calls = new Set();
 
 /**
  * @typedef {object} Palette  CSS colours
+ * @property {string} sky
+ * @property {string} haze  at the horizon
  * @property {string} verge
  * @property {string} vergeDeep
  * @property {string} asphalt
@@ -38,6 +40,8 @@ const calls = new Set();
  */
 
 const COLOURS = {
+  sky: "--road-sky",
+  haze: "--road-haze",
   verge: "--road-verge",
   vergeDeep: "--road-verge-deep",
   asphalt: "--road-asphalt",

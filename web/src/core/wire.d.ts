@@ -22,7 +22,7 @@ export interface Add {
 /** Change a parameter by a factor, by a signed amount, or simply up or down. */
 export interface Adjust {
   do: "adjust";
-  parameter: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed";
+  parameter: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_latency" | "slip_probability" | "traffic_by_hour" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed";
   factor?: number | null;
   by?: number | null;
   direction?: "up" | "down" | null;
@@ -32,7 +32,7 @@ export interface Adjust {
 export interface Advice {
   question: string;
   text: string;
-  source: "typed" | "grammar" | "llm";
+  source: "typed" | "grammar" | "matched" | "llm";
   hazard: Kind;
   distance_m: number;
   speed_kmh: number;
@@ -141,17 +141,17 @@ export interface Answer {
 /** A question; which keys belong to which `about` is the contract's table. */
 export interface Ask {
   do: "ask";
-  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending" | "detail" | "other" | "pattern" | "outlook" | "blame" | "planners" | "quiz" | "rules";
+  about: "why" | "why_not" | "what_if" | "next" | "scene" | "status" | "metrics" | "confidence" | "maintenance" | "help" | "setting" | "options" | "term" | "history" | "styles" | "changes" | "pending" | "detail" | "other" | "pattern" | "outlook" | "blame" | "planners" | "quiz" | "rules" | "sight" | "world";
   move?: Move | null;
   instead?: Move | null;
   tick?: number | null;
   change?: Action[] | null;
   kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
   metric?: "crashes" | "successes" | "success_rate" | "steps" | "moves" | "distance" | null;
-  parameter?: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed" | "view" | "preference" | "road" | "layout" | null;
+  parameter?: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_latency" | "slip_probability" | "traffic_by_hour" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed" | "view" | "preference" | "road" | "layout" | null;
   value?: number | string | null;
   term?: "arrived" | "astar" | "attentive" | "av" | "barrier" | "bfs" | "camera" | "cautious" | "certificate" | "closest_call" | "columns" | "confidence" | "continuous" | "cooperative" | "courtesy" | "crash" | "detection_sensitivity" | "dijkstra" | "digest" | "dwa" | "dynamics" | "ego" | "episode" | "false_positive_rate" | "fastest" | "forecast" | "fusion" | "grid" | "layout" | "lidar" | "occupancy" | "pedestrian" | "percept" | "perfect" | "planner" | "playback_speed" | "pothole" | "pothole_probability" | "preference" | "priority" | "radar" | "regret" | "rl" | "rows" | "rss" | "rules" | "safety_buffer" | "seed" | "sensor" | "sensor_noise" | "sensor_range_m" | "smooth_ride" | "avoid_potholes" | "spawn_probability" | "step_seconds" | "stuck" | "success_rate" | "target_speed_kmh" | "tick" | "time_of_day" | "traffic" | "ttc" | "vehicle" | "weather" | "what_if" | null;
-  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "choices" | "losses" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "way" | "wait" | "free" | "matters" | "fault" | "too_late" | "foreseen" | "avoidable" | "here" | "compare" | "character" | "own" | "method" | "detour" | null;
+  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "choices" | "losses" | "runner_up" | "scores" | "waited" | "differed" | "before_crash" | "lane_changes" | "passed" | "verdict" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "way" | "wait" | "free" | "matters" | "risk" | "coming" | "fault" | "too_late" | "foreseen" | "avoidable" | "human" | "here" | "compare" | "character" | "own" | "method" | "often" | "difference" | "detour" | "phantoms" | "missed" | "truth" | "range" | "blind" | "weather" | "care" | "weathers" | "sensors" | "pace" | "gap" | "stopping" | "right_of_way" | "harm" | "chance" | "colours" | "moves" | "movers" | "weights" | "learning" | "nature" | "sources" | "by_hand" | "giving_up" | null;
   until?: number | null;
   ticks?: number | null;
   seconds?: number | null;
@@ -261,7 +261,7 @@ export interface CommandResult {
   /** The answer, if something was asked. */
   answer: Answer | null;
   /** What understood it: the grammar, or a language model, which interprets. */
-  source: "grammar" | "llm" | "typed";
+  source: "grammar" | "matched" | "llm" | "typed";
   sequence: number;
   corrections: Correction[];
   dry_run: boolean;
@@ -271,7 +271,7 @@ export interface CommandResult {
 
 /** What a rule waits for: one fact, with its figures. */
 export interface Condition {
-  fact: "crash" | "arrival" | "stuck" | "episode" | "every" | "after" | "tick" | "row" | "lane" | "near" | "count";
+  fact: "crash" | "arrival" | "stuck" | "episode" | "every" | "after" | "tick" | "row" | "lane" | "goal" | "near" | "count" | "weather" | "time_of_day";
   ticks?: number | null;
   seconds?: number | null;
   tick?: number | null;
@@ -281,8 +281,12 @@ export interface Condition {
   closer_than_m?: number | null;
   within_m?: number | null;
   farther_than_m?: number | null;
+  side?: "ahead" | "behind" | null;
   at_least?: number | null;
   at_most?: number | null;
+  weather?: "clear" | "rain" | "fog" | "snow" | null;
+  time_of_day?: "day" | "dusk" | "night" | "dawn" | null;
+  no_longer?: true | null;
 }
 
 /** What a patch of the configuration did. */
@@ -400,7 +404,9 @@ export interface Evaluate {
   planners?: ("rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative")[] | null;
   scenario?: ScenarioParts | null;
   road?: "this" | null;
+  scenario_name?: string | null;
   vary?: Varied | null;
+  map?: ["potholes" | "vehicles" | "barriers" | "pedestrians", "potholes" | "vehicles" | "barriers" | "pedestrians"] | null;
 }
 
 /** An evaluation as it stands. */
@@ -419,8 +425,10 @@ export interface Evaluation {
   seed: number;
   /** What the roads are drawn from; a search draws numbers of things and layouts itself. */
   config: { [key: string]: unknown };
-  /** Whether all episodes start from one road, that of the session it was asked of. */
+  /** Whether all episodes start from one road: that of the session it was asked of, or of a scenario. */
   same_road: boolean;
+  /** The scenario, or the moment that was saved, where one was named. */
+  scenario_name: string | null;
   /** What is compared beside the planners, such as `{"weather": "fog"}`; empty where nothing is. */
   conditions: ({ [key: string]: unknown })[];
   /** Episodes of each planner that are done, under all conditions together; or worlds that are done. */
@@ -482,6 +490,8 @@ export interface Expected {
   /** Whether it is certain: false beyond the first tick where movers react to the ego. */
   exact: boolean;
   ahead: ExpectedTick[];
+  /** The ego's own cells in the ticks to come, as many as were asked for, until its episode ends. It is driven on in the simulator, as if nobody said anything. */
+  path?: ([number, number])[];
 }
 
 /** Where movers are expected to be at a tick to come. */
@@ -539,6 +549,8 @@ export interface Health {
   sessions: number;
   watchers: number;
   tick_lateness: Lateness;
+  /** Empty where one process holds all sessions. */
+  shards?: ShardHealth[];
 }
 
 /** The first message of a connection: everything to begin with. */
@@ -661,6 +673,21 @@ export interface LogEvent {
   cell: [number, number] | null;
 }
 
+/** An answer that takes long, as it stands. */
+export interface LongAnswer {
+  id: string;
+  /** The id of the session that it is about. */
+  session: string;
+  /** What was asked for, such as `film`. */
+  what: string;
+  /** `failed`: what came of it is a problem, at `links.result`. */
+  state: "running" | "done" | "failed";
+  /** The share of the work that is done. */
+  progress: number;
+  /** `self`: this, again; DELETE cancels it. `result`: the answer, once it is done. */
+  links: { [key: string]: string };
+}
+
 /** Totals over the episodes of a session. */
 export interface Metrics {
   /** Episodes that have ended. */
@@ -774,6 +801,9 @@ export interface NewEvaluation {
     sensor_range_m?: number;
     sensor_noise?: number;
     false_positive_rate?: number;
+    sensor_latency?: number;
+    slip_probability?: number;
+    traffic_by_hour?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -782,8 +812,12 @@ export interface NewEvaluation {
   } | null;
   /** Values that are compared, such as `weather` of `clear` and `fog`: each combination is run from the same seeds, and all are compared with the first. */
   vary?: Varied | null;
+  /** A success map over two of these numbers of things, with `runs` episodes in each cell. `vary` may give their values, 2 to 12 each. */
+  map?: ["potholes" | "vehicles" | "barriers" | "pedestrians", "potholes" | "vehicles" | "barriers" | "pedestrians"] | null;
   /** A scenario file, as JSON (see `roadtalk scenario schema`). Beside it: runs, planners, seed, language. */
   file?: { [key: string]: unknown } | null;
+  /** A scenario that comes with Roadtalk, such as `rush-hour`, or with `session` a moment that was saved there. Beside it: runs, planners, vary, map, seed, language. */
+  scenario_name?: string | null;
   /** Roads as in this session; alone or with a text, runs, planners. */
   session?: string | null;
   /** The session's own road from this moment on, in place of roads that are drawn. */
@@ -846,6 +880,9 @@ export interface NewSession {
     sensor_range_m?: number;
     sensor_noise?: number;
     false_positive_rate?: number;
+    sensor_latency?: number;
+    slip_probability?: number;
+    traffic_by_hour?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -913,7 +950,7 @@ export interface Parent {
 export interface Parsed {
   text: string;
   actions: Action[];
-  source: "grammar" | "llm";
+  source: "grammar" | "matched" | "llm";
   corrections: Correction[];
 }
 
@@ -944,6 +981,12 @@ export interface PendingQuestion {
   question: string;
   /** To answer, say the number of one or some of its words; "never mind" drops the question. */
   choices: ChoiceModel[];
+}
+
+/** A word of a taught phrase in whose place a number is said. */
+export interface PhraseParameter {
+  name: string;
+  figures: string[];
 }
 
 /** Asks for a `pong`. */
@@ -1000,7 +1043,7 @@ export interface ProblemDocument {
   /** Why a sentence was refused. */
   reason?: "not_understood" | "negation" | "empty" | "impossible" | null;
   /** What asks back: the grammar, or a language model. */
-  source?: "grammar" | "llm" | null;
+  source?: "grammar" | "matched" | "llm" | null;
   unparsed?: string[] | null;
   understood?: string[] | null;
   suggestions?: string[] | null;
@@ -1087,6 +1130,9 @@ export interface Recording {
     sensor_range_m?: number;
     sensor_noise?: number;
     false_positive_rate?: number;
+    sensor_latency?: number;
+    slip_probability?: number;
+    traffic_by_hour?: number;
     dynamics?: "grid";
     behaviour?: "sideways";
     rules?: number;
@@ -1357,7 +1403,7 @@ export interface SessionSummary {
 /** Give a parameter a value. */
 export interface Set {
   do: "set";
-  parameter: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed";
+  parameter: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_latency" | "slip_probability" | "traffic_by_hour" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed";
   value: number | string;
 }
 
@@ -1373,6 +1419,19 @@ export interface SetMode {
   do: "mode";
   mode: Mode;
   ego?: string | null;
+}
+
+/** One of several processes that hold sessions. */
+export interface ShardHealth {
+  shard: number;
+  /** `down`: it is being replaced; its sessions come back with it. */
+  state: "up" | "down";
+  /** Where it listens for the service's entry; None while it is down. */
+  address: string | null;
+  process: number | null;
+  restarts: number;
+  sessions: number;
+  watchers: number;
 }
 
 /** So many cells to one side. */
@@ -1496,8 +1555,12 @@ export interface Subscribe {
   theme?: "dark" | "light";
   /** Bounding boxes around what moves. */
   boxes?: boolean;
-  /** The strip of figures along the upper edge. */
+  /** The strip of figures along the upper edge, and the result across the middle. */
   figures?: boolean;
+  /** The way behind the vehicle, its move and the next one. */
+  path?: boolean;
+  /** Where movers are expected in the next ticks. */
+  forecast?: boolean;
 }
 
 /** The pictures that follow as binary messages. */
@@ -1511,8 +1574,12 @@ export interface SubscribedMessage {
   theme?: "dark" | "light";
   /** Bounding boxes around what moves. */
   boxes?: boolean;
-  /** The strip of figures along the upper edge. */
+  /** The strip of figures along the upper edge, and the result across the middle. */
   figures?: boolean;
+  /** The way behind the vehicle, its move and the next one. */
+  path?: boolean;
+  /** Where movers are expected in the next ticks. */
+  forecast?: boolean;
 }
 
 /** Let two things change places. */
@@ -1528,6 +1595,8 @@ export interface TaughtPhrase {
   meaning: Action[];
   /** The sentence that says the same. */
   sentence: string;
+  /** The words of the phrase in whose place a number is said. */
+  parameters?: string[];
 }
 
 /** From now on, a phrase means these actions. */
@@ -1535,6 +1604,7 @@ export interface Teach {
   do: "teach";
   phrase: string;
   meaning: Action[];
+  parameters?: PhraseParameter[] | null;
 }
 
 /** A sentence to be understood. */

@@ -28,7 +28,8 @@ export function createConnectionBadge(host, page) {
 
 /** @param {State} state */
 function textOf({ connection, past, world }) {
-  if (connection.phase === "live" && past !== null) return t("connection.past", { tick: past.world.tick });
+  if (connection.phase === "live" && past !== null)
+    return html`${t("connection.past")}<span class="connection-tick">${t("connection.past_tick", past.world)}</span>`;
   if (connection.phase !== "lost") return t(`connection.${connection.phase}`);
   const seconds = Math.max(1, Math.round(connection.retryMs / 1000));
   return world === null ? t("connection.lost", { seconds }) : t("connection.stale", { tick: world.tick, seconds });

@@ -20,6 +20,7 @@ import { createNotice } from "../ui/notice.js";
 import { createOccupancy } from "./occupancy.js";
 import { createPast } from "../timeline/pastBar.js";
 import { createServerVideo } from "../road/serverVideoLoader.js";
+import { createPerspective } from "../road/perspectiveLoader.js";
 import { createPlan } from "./plan.js";
 import { createRoad } from "../road/road.js";
 import { createSchematic } from "./schematic.js";
@@ -82,6 +83,7 @@ export function createPanels(page) {
     createSettings(page),
     createTourLoader(page),
     createServerVideo(byId("road"), page),
+    createPerspective(road, page),
     createLanes(byId("road")),
     createForesight(page),
     createPlan(byId("plan"), byId("plan-when"), page),

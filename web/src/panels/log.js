@@ -16,12 +16,12 @@ export function createLog(host) {
   /** The line of the decision that led to what is looked at. @type {Line | null} */
   let looked = null;
   let following = true;
+  /** The list's size when it was last laid out: what it scrolls by itself because its size changes is nobody's wish. */
+  let size = "";
 
   function show() {
     render(
-      html`<ol class="log-lines" tabindex="0" aria-label=${t("log.label")} data-none=${t("log.none")} @scroll=${scrolled}>
-          ${repeat(lines, ({ key }) => key, (line) => row(line, line === looked))}
-        </ol>
+      html`<ol class="log-lines" tabindex="0" aria-label=${t("log.label")} data-none=${t("log.none")} @scroll=${scrolled}>${repeat(lines, ({ key }) => key, (line) => row(line, line === looked))}</ol>
         <button class="button small newest" type="button" ?hidden=${following} @click=${() => follow(true)}>${t("log.newest")}</button>`,
       host,
     );
@@ -29,6 +29,7 @@ export function createLog(host) {
 
   function scrolled() {
     const list = find(host, ".log-lines");
+    if (sizeOf(list) !== size) return;
     follow(list.scrollHeight - list.scrollTop - list.clientHeight < NEAR_END_PX, false);
   }
 
@@ -52,6 +53,11 @@ export function createLog(host) {
   }
 
   show();
+  // A window made smaller keeps the newest in sight.
+  new ResizeObserver(([{ target }]) => {
+    size = sizeOf(target);
+    if (following) follow(true);
+  }).observe(find(host, ".log-lines"));
   return {
     update({ log, past }, before) {
       lines = log;
@@ -62,6 +68,9 @@ export function createLog(host) {
     },
   };
 }
+
+/** @param {Element} list */
+const sizeOf = ({ clientWidth, clientHeight }) => `${clientWidth} ${clientHeight}`;
 
 /** @param {Line} line @param {boolean} looked */
 function row(line, looked) {

@@ -6,7 +6,7 @@ import { t } from "../core/texts.js";
 import { icon } from "../ui/icons.js";
 import { createMenu } from "../ui/menu.js";
 import { find } from "../ui/slot.js";
-import { keepViews, LAYERS, PARTS, STRIP, viewsLeft } from "../ui/views.js";
+import { keepViews, LAYERS, PARTS, PERSPECTIVE, STRIP, viewsLeft } from "../ui/views.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Page } from "../core/page.js" */
@@ -19,6 +19,10 @@ const TOLD_TO_ALL = new Set([...PARTS, "path", "potholes"]);
 /** What can be enlarged. */
 const LARGE = [...PARTS.filter((name) => name !== "schematic"), "talk"];
 
+/** What goes away when the other is shown: the service draws no perspective. @type {Record<string, string>} */
+const INSTEAD_OF = { perspective: "service", service: "perspective" };
+const PERSPECTIVE_KEY = "d";
+
 /** @param {string} name */
 const nameOf = (name) => t(`views.${name}`);
 
@@ -30,7 +34,7 @@ export function createViews(host, page) {
   const whole = find(document, ".page");
   find(document, ".views").dataset.none = t("views.none");
   /** @param {string} name */
-  const toggle = (name) => page.arrange({ [name]: !page.state().views[name] });
+  const toggle = (name) => page.arrange(shown(name, !page.state().views[name]));
   /** @param {string} name */
   const enlarge = (name) => page.arrange({}, page.state().large === name ? null : name);
   /** What was pressed is gone with its panel: the menu that brings it back has the focus. @param {string} name */
@@ -64,6 +68,12 @@ export function createViews(host, page) {
   };
 }
 
+/** With one shown or hidden. @param {string} name @param {boolean} on */
+function shown(name, on) {
+  const other = INSTEAD_OF[name];
+  return { [name]: on, ...(on && other ? { [other]: false } : {}) };
+}
+
 /** @param {string} name */
 function partOf(name) {
   return find(document, `[data-view=${name}]`);
@@ -94,13 +104,14 @@ function menuItems(page, toggle) {
     ...PARTS.map((name, at) => ({ name, label: nameOf(name), keyName: String(at + 1), checked: views[name], run: () => toggle(name) })),
     null,
     ...[...LAYERS, STRIP].map((name) => ({ name, label: nameOf(name), checked: views[name], run: () => toggle(name) })),
+    { name: PERSPECTIVE, label: nameOf(PERSPECTIVE), keyName: PERSPECTIVE_KEY.toUpperCase(), checked: views[PERSPECTIVE], run: () => toggle(PERSPECTIVE) },
     null,
     ...[false, true].map((service) => ({
       name: service ? "drawn-there" : "drawn-here",
       label: t(service ? "views.drawn_there" : "views.drawn_here"),
       checked: views.service === service,
       choice: true,
-      run: () => page.arrange({ service }),
+      run: () => page.arrange(shown("service", service)),
     })),
   ];
 }
@@ -117,7 +128,7 @@ function viewCommands(toggle, enlarge) {
     name: `view-${name}`,
     group,
     key,
-    keyName: key,
+    keyName: key?.toUpperCase(),
     now: ({ views }) => ({
       label: t(views[name] ? "views.hide" : "views.show", { name: theName(name) }),
       run: () => toggle(name),
@@ -127,6 +138,7 @@ function viewCommands(toggle, enlarge) {
   return [
     ...PARTS.map((name, at) => toggling(name, String(at + 1))),
     ...[...LAYERS, STRIP].map((name) => toggling(name)),
+    toggling(PERSPECTIVE, PERSPECTIVE_KEY),
     ...LARGE.map((name) => ({
       name: `enlarge-${name}`,
       group,

@@ -14,7 +14,7 @@ import { lay } from "../ui/placement.js";
 import { createSlot, find } from "../ui/slot.js";
 import { pointedAt } from "../why/pointing.js";
 import { hindrance, isLoose, moving, placing, removing } from "./edit.js";
-import { onRoad, same, thingAt } from "./hitTest.js";
+import { cellPx, onRoad, same, thingAt } from "./hitTest.js";
 import { nameOf, nounOf, placeWords } from "./placeTexts.js";
 import { createTray, portrait } from "./tray.js";
 
@@ -164,7 +164,7 @@ class DragDrop {
   #aim() {
     const { held, world } = this;
     if (held === null || world === null) return;
-    const size = this.places.placeOf([0, 0])?.width ?? 40;
+    const size = cellPx(this.places) || 40;
     lay(this.ghost, { left: held.x - size / 2, top: held.y - size / 2, width: size, height: size });
     const cell = this.#over(held.x, held.y);
     const off = cell === null || !onRoad(world, cell);

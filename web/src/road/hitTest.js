@@ -15,6 +15,9 @@
  * @typedef {object} Places  where a view shows what
  * @property {(x: number, y: number) => Cell | null} cellAt  also beyond the road's edges, where a view goes on there
  * @property {(cell: Cell) => Place | null} placeOf
+ * @property {(x: number, y: number) => [number, number] | null} [spotAt]  where between the cells, whole numbers being their
+ *   centres; null where cells stand as a plain grid, so that `placeOf` tells
+ * @property {() => number} [cellPx]  the side of a cell, where that is not the same everywhere: beside the vehicle
  * @property {(id: string) => Pose | null} [poseOf]  where a thing is seen on its way between two cells
  * @property {() => Pose[]} [poses]
  * @property {() => [number, number] | null} [window]  the rows that are seen, from and to
@@ -54,8 +57,7 @@ export function thingAt(places, world, x, y) {
   if (cell === null) return null;
   const origin = places.placeOf([0, 0]);
   if (!places.poses || !origin) return thingIn(world, cell);
-  const column = (x - origin.left) / origin.width - 0.5;
-  const row = (y - origin.top) / origin.height - 0.5;
+  const [column, row] = places.spotAt?.(x, y) ?? [(x - origin.left) / origin.width - 0.5, (y - origin.top) / origin.height - 0.5];
   let best = null;
   let least = 0.55;
   for (const pose of places.poses()) {
@@ -65,6 +67,11 @@ export function thingAt(places, world, x, y) {
     best = pose.thing;
   }
   return best && (world.things.get(best.id) ?? null);
+}
+
+/** The side of a cell of a view, in CSS pixels; 0 where nothing is seen yet. @param {Places} places */
+export function cellPx(places) {
+  return places.cellPx?.() ?? places.placeOf([0, 0])?.width ?? 0;
 }
 
 /** What lies under the others comes last. @param {{kind: string}} thing */

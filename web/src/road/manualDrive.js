@@ -34,16 +34,26 @@ export function createManualDrive(host, place, page) {
   let drivenAt = -1;
   let drivenMs = 0;
   let words = "";
+  /** The exchanges of moves that were sent while the clock ran. @type {string[]} */
+  let sent = [];
+
+  /** How many moves wait, those among them that the service has not answered yet. */
+  function waiting() {
+    const { queue, talk } = page.state();
+    sent = sent.filter((id) => talk.some((exchange) => exchange.id === id && exchange.standing === "pending"));
+    return queue.length + sent.length;
+  }
 
   /** @param {Move} move */
   function drive(move) {
     const { world } = page.state();
     if (world === null || world.status !== "running") return; // a result stays to be seen
-    if (page.state().queue.length >= MOST_WAITING) return;
+    if (waiting() >= MOST_WAITING) return;
     drivenAt = world.tick;
     drivenMs = performance.now();
-    page.act([{ do: "drive", move }], t("drive.move", { move: moveName(move) }), true);
-    if (world.paused) page.act([{ do: "step", ticks: 1 }], t("clock.step"), true);
+    const id = page.act([{ do: "drive", move }], t("drive.move", { move: moveName(move) }), true);
+    if (!world.paused) sent.push(id);
+    else page.act([{ do: "step", ticks: 1 }], t("clock.step"), true);
   }
 
   const keys = watchDrivingKeys(page, drive, () => (page.state().world?.paused && performance.now() - drivenMs < HELD_MS ? Infinity : drivenAt));

@@ -5,7 +5,7 @@ import { html } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { createSlot, find } from "../ui/slot.js";
 import { Camera, viewOf } from "./camera.js";
-import { foreseen, STEPS } from "../why/forecast.js";
+import { aheadOf, foreseen, pathOf, STEPS } from "../why/forecast.js";
 import { ease, Stage } from "./motion.js";
 import { drawCell, drawImpact, drawMove, drawRing, drawTrail, drawWait } from "./paint/annotations.js";
 import { drawBoxes, drawForecast, drawHazards } from "./paint/overlays.js";
@@ -17,10 +17,13 @@ import { Sensed } from "./sensed.js";
 import { readPalette, wantsStillness } from "../core/theme.js";
 import { describe, egoOf } from "./world.js";
 
+/** @import { Cell } from "../core/protocol.js" */
 /** @import { View } from "./camera.js" */
 /** @import { Places } from "./hitTest.js" */
 /** @import { Pose } from "./motion.js" */
 /** @import { State } from "../core/state.js" */
+/** @import { Marks } from "./sensed.js" */
+/** @import { Perspective } from "./perspective/perspective.js" */
 /** @import { World } from "./world.js" */
 /** @import { Panel } from "../panels/index.js" */
 
@@ -30,7 +33,7 @@ const LONGEST_FRAME_S = 0.1;
 
 /** @typedef {import("./paint/things.js").Scene & {state: State, world: World, seen: Pose[]}} Moment  what is drawn: `seen`, as far as it is in view */
 
-/** @param {HTMLElement} host @returns {Panel & {places: Places}} */
+/** @param {HTMLElement} host @returns {Panel & {places: Places, deepen: (view: Perspective) => void}} */
 export function createRoad(host) {
   const road = new RoadView(host);
   return {
@@ -38,6 +41,7 @@ export function createRoad(host) {
     update: (state) => road.update(state),
     repaint: () => road.repaint(),
     draw: (now) => road.draw(now),
+    deepen: (view) => void (road.perspective = view),
   };
 }
 
@@ -49,6 +53,7 @@ class RoadView {
   palette = readPalette(document.documentElement);
   /** @type {State | null} */ state = null;
   /** @type {View | null} */ view = null;
+  /** Draws the road in perspective, once that is fetched. @type {Perspective | null} */ perspective = null;
   /** The road's surface, drawn once. @type {HTMLCanvasElement | null} */ tile = null;
   #drawnAt = 0;
 
@@ -82,6 +87,7 @@ class RoadView {
   repaint() {
     this.palette = readPalette(document.documentElement);
     this.sprites.clear();
+    this.perspective?.repaint();
     this.view = this.tile = null;
   }
 
@@ -97,9 +103,14 @@ class RoadView {
     return { view, tile };
   }
 
+  /** The view in perspective, where that is what is seen. */
+  get deep() {
+    return this.state?.views.perspective ? this.perspective : null;
+  }
+
   /** @param {number} now @returns {boolean} whether there is more to come */
   draw(now) {
-    const { state, stage, camera, sprites, palette, pen } = this;
+    const { state, stage, sprites, palette, pen } = this;
     const world = state?.world;
     if (!world || this.host.clientWidth === 0) return false;
     const { view, tile } = this.view && this.tile ? { view: this.view, tile: this.tile } : this.#fit(world);
@@ -108,7 +119,28 @@ class RoadView {
     const still = wantsStillness();
     const elapsedS = still ? Infinity : Math.min(LONGEST_FRAME_S, (now - this.#drawnAt) / 1000);
     this.#drawnAt = now;
-    const scrolling = camera.follow(egoPose?.row ?? world.rows - 1, world, view, elapsedS);
+    const progress = still ? 1 : stage.progress(now);
+    const moment = { pen, sprites, palette, progress, now: still ? 0 : now, state, world, seen: stage.poses(now) };
+    const hit = world.status === "crash" ? stage.touch(now) : null;
+    const given = { ego: egoPose, trail: stage.trail.slice(0, -1), hit, sensed: this.sensed.of(world), elapsedS };
+    const { deep } = this;
+    const scrolling = deep
+      ? deep.draw(moment, view, { ...given, path: pathOf(state, egoPose), ahead: aheadOf(state) })
+      : this.#drawFromAbove(moment, view, tile, given);
+    return scrolling || stage.moving(now) || this.sensed.waiting;
+  }
+
+  /**
+   * @param {Moment} all
+   * @param {View} view
+   * @param {HTMLCanvasElement} tile
+   * @param {{ego: Pose | null, trail: [number, number][], hit: [number, number] | null, sensed: Marks | null, elapsedS: number}} given
+   * @returns {boolean} whether the road is still scrolling
+   */
+  #drawFromAbove(all, view, tile, { ego, trail, hit, sensed, elapsedS }) {
+    const { pen, palette, world, progress } = all;
+    const { camera } = this;
+    const scrolling = camera.follow(ego?.row ?? world.rows - 1, world, view, elapsedS);
     const top = camera.top ?? 0;
     const { cell, left, ratio, visibleRows } = view;
 
@@ -118,39 +150,56 @@ class RoadView {
 
     // From here on one unit is a cell, and whole numbers are the centres of cells.
     pen.setTransform(ratio * cell, 0, 0, ratio * cell, ratio * (left + cell / 2), ratio * cell * (0.5 - top));
-    const seen = stage.poses(now).filter(({ row }) => row > top - 2 && row < top + visibleRows + 1);
-    const progress = still ? 1 : stage.progress(now);
-    const moment = { pen, sprites, palette, progress, now: still ? 0 : now, state, world, seen };
-    drawMoment(moment, egoPose, stage.trail.slice(0, -1), world.status === "crash" ? stage.touch(now) : null);
-    const marks = this.sensed.of(world);
-    if (marks) drawMarks(pen, seen, marks, palette);
+    const seen = all.seen.filter(({ row }) => row > top - 2 && row < top + visibleRows + 1);
+    drawMoment({ ...all, seen }, ego, trail, hit);
+    if (sensed) drawMarks(pen, seen, sensed, palette);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     drawWeather(pen, view, world, world.tick + progress, palette);
-    return scrolling || stage.moving(now) || this.sensed.waiting;
+    return scrolling;
   }
 }
 
 /** Where cells and things are on the screen. @param {RoadView} road @returns {Places} */
 function placesOf(road) {
   const { canvas, stage, camera } = road;
+  /** A point of the window on the canvas. @param {number} x @param {number} y */
+  const onCanvas = (x, y) => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return /** @type {[number, number]} */ ([x - left, y - top]);
+  };
   return {
     cellAt(x, y) {
-      const { view } = road;
+      const { view, deep } = road;
+      const [left, top] = onCanvas(x, y);
+      if (deep) return wholeCell(deep.spotAt(left, top));
       if (view === null || camera.top === null) return null;
-      const { left, top } = canvas.getBoundingClientRect();
-      return [Math.floor((x - left - view.left) / view.cell), Math.floor((y - top) / view.cell + camera.top)];
+      return [Math.floor((left - view.left) / view.cell), Math.floor(top / view.cell + camera.top)];
     },
     placeOf([column, row]) {
-      const { view } = road;
-      if (view === null || camera.top === null) return null;
+      const { view, deep } = road;
       const { left, top } = canvas.getBoundingClientRect();
+      if (deep) {
+        const place = deep.placeOf([column, row]);
+        return place && { ...place, left: left + place.left, top: top + place.top };
+      }
+      if (view === null || camera.top === null) return null;
       const size = view.cell;
       return { left: left + view.left + column * size, top: top + (row - camera.top) * size, width: size, height: size };
     },
+    spotAt: (x, y) => road.deep?.spotAt(...onCanvas(x, y)) ?? null,
+    cellPx: () => (road.deep ? road.deep.cell : (road.view?.cell ?? 0)),
     poseOf: (id) => stage.pose(id, performance.now()),
     poses: () => stage.poses(performance.now()),
-    window: () => (road.view === null || camera.top === null || road.host.clientWidth === 0 ? null : [camera.top, camera.top + road.view.visibleRows]),
+    window() {
+      if (road.deep) return road.deep.window;
+      return road.view === null || camera.top === null || road.host.clientWidth === 0 ? null : [camera.top, camera.top + road.view.visibleRows];
+    },
   };
+}
+
+/** @param {[number, number] | null} spot  whole numbers are centres of cells @returns {Cell | null} */
+function wholeCell(spot) {
+  return spot && [Math.round(spot[0]), Math.round(spot[1])];
 }
 
 /**
@@ -218,14 +267,4 @@ function at(pen, column, row, draw) {
   pen.translate(column, row);
   draw();
   pen.restore();
-}
-
-/**
- * Where movers will be in the ticks to come, as far as that was told.
- * @param {State} state
- */
-function aheadOf({ foresight, world }) {
-  const tick = world?.tick ?? 0;
-  if (!foresight || foresight.tick > tick) return [];
-  return foresight.ahead.filter((each) => each.tick > tick).map(({ movers }) => movers);
 }

@@ -62,6 +62,7 @@ function whereSeen(host, own, page) {
       if (view === null) return own.cellAt(x, y);
       return [Math.floor((x - view.left) / view.cell), Math.floor((y - view.top) / view.cell + view.row)];
     },
+    cellPx: () => served()?.cell ?? own.cellPx?.() ?? 0,
     placeOf([column, row]) {
       const view = served();
       if (view === null) return own.placeOf([column, row]);

@@ -87,14 +87,15 @@ export function createServerVideo(host, page) {
       const live = connection.phase === "live";
       const want = views.service && views.road && live ? side() : 0;
       if (wanted && !come && fault !== null && fault !== before.fault) return giveUp(fault);
-      const otherwise = connection !== before.connection || views.boxes !== before.views.boxes || themeSeen() !== drawnIn;
+      const otherwise = connection !== before.connection || ["boxes", "path", "forecast"].some((name) => views[name] !== before.views[name]) || themeSeen() !== drawnIn;
       if (want !== wanted || (want && otherwise)) {
         drawnIn = themeSeen();
         clearTimeout(patience);
         wanted = want;
         come = false;
         if (want) {
-          page.send({ type: "subscribe", frames: "webp", view: "road", fps: FPS, side: want, theme: themeSeen(), boxes: views.boxes, figures: false });
+          const { boxes, path, forecast } = views;
+          page.send({ type: "subscribe", frames: "webp", view: "road", fps: FPS, side: want, theme: themeSeen(), boxes, figures: false, path, forecast });
           patience = setTimeout(() => giveUp(t("road.no_pictures")), PATIENCE_MS);
         } else if (live) page.send({ type: "unsubscribe" });
       }

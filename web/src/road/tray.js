@@ -7,6 +7,7 @@ import { readPalette } from "../core/theme.js";
 import { icon } from "../ui/icons.js";
 import { createSlot } from "../ui/slot.js";
 import { TOOLS } from "./edit.js";
+import { cellPx } from "./hitTest.js";
 import { Sprites } from "./paint/sprites.js";
 import { drawThing } from "./paint/things.js";
 import { nounOf } from "./placeTexts.js";
@@ -69,7 +70,7 @@ export function createTray(host, places, { grab, choose }) {
 
   /** Each as it looks on the road, of the size it has there. */
   function draw() {
-    const size = places.placeOf([0, 0])?.width ?? 0;
+    const size = cellPx(places);
     if (!open || size === painted || size === 0) return;
     painted = size;
     pictures = Object.fromEntries(TOOLS.map(({ kind }) => [kind, portrait(places, kind, `${kind}-0`)]));
@@ -98,7 +99,7 @@ export function createTray(host, places, { grab, choose }) {
  */
 export function portrait(places, kind, id) {
   const ratio = Math.min(2, devicePixelRatio || 1);
-  const size = Math.round((places.placeOf([0, 0])?.width ?? 40) * ratio);
+  const size = Math.round((cellPx(places) || 40) * ratio);
   const canvas = Object.assign(document.createElement("canvas"), { className: "portrait", width: size, height: size });
   const pen = canvas.getContext("2d");
   if (pen === null) return canvas;

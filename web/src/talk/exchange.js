@@ -33,7 +33,7 @@ function resultTemplate(result, page, undos, taken) {
   const onRoad = changes.length === 1 ? changes : changes.filter(({ path }) => !isSetting(path));
   const settings = changes.filter((change) => !onRoad.includes(change));
   return html`${(result.corrections ?? []).map(correction)}
-    ${result.answer ? answerTemplate(result.answer, result.reply, page) : html`<p class="reply">${result.reply.replaceAll(" → ", "\u00a0→\u00a0")}</p>`}
+    ${readAs(result)} ${result.answer ? answerTemplate(result.answer, result.reply, page) : html`<p class="reply">${result.reply.replaceAll(" → ", "\u00a0→\u00a0")}</p>`}
     ${(result.evaluations ?? []).map(reportLink)}
     ${
       // A thing moved changes no figure, and can be taken back all the same.
@@ -52,6 +52,12 @@ function resultTemplate(result, page, undos, taken) {
           </details>`
         : nothing
     }`;
+}
+
+/** What a question in free words was read as: it stands before the answer. @param {CommandResult} result */
+function readAs({ source, reply, answer }) {
+  const end = answer?.text ? reply.indexOf(answer.text) : -1;
+  return source === "matched" && end > 0 ? html`<p class="reply read-as">${reply.slice(0, end).trim()}</p>` : nothing;
 }
 
 /**

@@ -14,20 +14,26 @@ import { canSpeak, speak, speaks } from "./speech.js";
 /** @import { LanguageGuide, TaughtPhrase } from "../core/wire.js" */
 
 const MOST_EXAMPLES = 3;
-/** Kinds of sentences under people's headings, in the order of a first hour; others follow under their own name. */
+/** Kinds of sentences under people's headings, in the order of a first hour; others follow. */
 const HEADINGS = /** @type {[string, string[]][]} */ ([
-  ["roads", ["scenario", "reset"]],
+  ["roads", ["scenario", "goal", "reset"]],
   ["put", ["add", "set_count", "move", "swap", "replace", "copy"]],
   ["take", ["remove"]],
-  ["why", ["ask why", "ask why_not", "ask what_if"]],
-  ["what", ["ask status", "ask scene", "ask next", "ask metrics", "ask confidence"]],
+  ["why", ["ask why", "ask why_not", "ask what_if", "ask blame"]],
+  ["others", ["ask other"]],
+  ["what", ["ask status", "ask scene", "ask next", "ask sight", "ask metrics", "ask confidence"]],
+  ["back_and_ahead", ["ask history", "ask pattern", "ask changes", "ask outlook"]],
   ["clock", ["pause", "resume", "step"]],
   ["time", ["undo", "redo", "rewind", "save", "load"]],
   ["drive", ["mode", "drive"]],
-  ["settings", ["set", "adjust", "prefer"]],
+  ["planners", ["ask planners", "style", "ask styles"]],
+  ["settings", ["set", "adjust", "prefer", "ask setting", "ask world", "ask term"]],
   ["views", ["show", "hide"]],
   ["advice", ["advise", "ask maintenance"]],
+  ["rules", ["trigger", "cancel", "ask rules"]],
+  ["evaluate", ["evaluate", "evaluation", "find_worst"]],
   ["teach", ["teach", "forget"]],
+  ["talk", ["ask help", "ask options", "ask quiz", "ask detail", "ask pending", "drop", "chat"]],
 ]);
 /** Keys that are not commands of their own. */
 const MORE_KEYS = [
@@ -103,13 +109,17 @@ function byHeading(intents) {
   /** @type {[string, {text: string}[]][]} */
   const groups = [];
   for (const [heading, kinds] of HEADINGS) {
-    const found = kinds.flatMap((kind) => left.get(kind)?.slice(0, kinds.length > 1 ? 2 : MOST_EXAMPLES) ?? []);
+    const found = kinds.flatMap((kind) => left.get(kind)?.slice(0, examplesOf(kinds)) ?? []);
     for (const kind of kinds) left.delete(kind);
     if (found.length > 0) groups.push([t(`help.headings.${heading}`), found]);
   }
-  for (const [kind, examples] of left) groups.push([plain(kind), examples.slice(0, MOST_EXAMPLES)]);
+  const others = [...left.values()].flatMap((examples) => examples.slice(0, 1));
+  if (others.length > 0) groups.push([t("help.headings.more"), others]);
   return groups;
 }
+
+/** How many of each of several kinds under a heading. @param {string[]} kinds */
+const examplesOf = ({ length }) => (length > 4 ? 1 : length > 1 ? 2 : MOST_EXAMPLES);
 
 /** @param {string} heading @param {{text: string}[]} examples @param {(text: string) => void} put */
 function group(heading, examples, put) {

@@ -50,14 +50,18 @@ function situationForm(shown, situation, show) {
   };
   return html`<form class="form" @submit=${submit}>
     <p class="dialog-note">${quiz.phases[situation.phase]} ${t("quiz.road", { number: own.indexOf(situation) + 1, count: own.length })}</p>
-    ${quizRoad(situation.picture, `${t("quiz.picture")}: ${wordsOf(situation.picture)}`)}
-    <p class="dialog-note">${t("quiz.blue")}</p>
-    ${
+    <div class="quiz-situation">
+      <div class="quiz-seen">
+        ${quizRoad(situation.picture, `${t("quiz.picture")}: ${wordsOf(situation.picture)}`)}
+        <p class="dialog-note">${t("quiz.blue")}</p>
+      </div>
+      <div class="quiz-asked">${
       situation.phase === "explained"
         ? html`<p><b>${t("quiz.did", { move: quiz.moves.find(({ id }) => id === situation.right.move)?.text ?? "" })}</b></p>
             <p>${situation.explanation}</p>`
         : html`${choices("move", t("quiz.what"), quiz.moves)} ${choices("reason", t("quiz.why"), situation.reasons)}`
-    }
+    }</div>
+    </div>
     <button class="button strong" type="submit">${t("quiz.next")}</button>
   </form>`;
 }

@@ -11,6 +11,9 @@ import { Latest } from "../core/latest.js";
 import { t } from "../core/texts.js";
 import { foresee, previewWords } from "./language.js";
 
+/** Between the parts of what stands under the box; those that have no room are left out. */
+const BETWEEN = " · ";
+
 /** @import { Page } from "../core/page.js" */
 /** @import { Foreseen } from "./language.js" */
 
@@ -145,7 +148,7 @@ export class Suggestions {
 
   /** The line under the box. @param {string} rest  what it says when there is nothing to foresee */
   line(rest) {
-    return html`<p class="preview" id="preview" data-standing=${this.shown.standing}>${this.shown.line || rest}</p>`;
+    return html`<p class="preview" id="preview" data-standing=${this.shown.standing}>${this.shown.line || rest.split(BETWEEN).map((part, at) => html`<span class="preview-part">${at > 0 ? BETWEEN : ""}${part}</span>`)}</p>`;
   }
 }
 

@@ -1,9 +1,11 @@
 // @ts-check
 /** Addresses and saving of downloads (pictures, videos, recordings); reads a recording from a file. */
 
-import { ask } from "../core/http.js";
+import { ask, askJson } from "../core/http.js";
 import { sessionPath } from "../core/protocol.js";
 import { decimalText, t } from "../core/texts.js";
+
+/** @import { LongAnswer } from "../core/wire.js" */
 
 /**
  * @typedef {object} VideoWish
@@ -14,6 +16,8 @@ import { decimalText, t } from "../core/texts.js";
  * @property {number} side
  * @property {"light" | "dark"} theme  the colours of the road
  * @property {boolean} boxes  whether bounding boxes are drawn
+ * @property {boolean} path  whether the way of the vehicle is
+ * @property {boolean} forecast  whether movers' next cells are
  */
 
 /** Frames a second, so that a longer stretch stays within what the service makes. */
@@ -25,10 +29,10 @@ const FRAMES = { most: 240, fastest: 12, slowest: 2 };
  * @param {VideoWish} wish
  * @param {number} stepS  seconds of a tick
  */
-export function videoPath(session, { from, to, format, view, side, theme, boxes }, stepS) {
+export function videoPath(session, { from, to, format, view, side, theme, boxes, path, forecast }, stepS) {
   const seconds = Math.max(stepS, (to - from) * stepS);
   const fps = Math.max(FRAMES.slowest, Math.min(FRAMES.fastest, Math.floor(FRAMES.most / seconds)));
-  const query = new URLSearchParams({ from: `${from}`, to: `${to}`, format, fps: `${fps}`, view, side: `${side}`, theme, boxes: `${boxes}` });
+  const query = new URLSearchParams({ from: `${from}`, to: `${to}`, format, fps: `${fps}`, view, side: `${side}`, theme, boxes: `${boxes}`, path: `${path}`, forecast: `${forecast}` });
   return `${sessionPath(session)}/film?${query}`;
 }
 
@@ -73,6 +77,47 @@ export function sizeText(bytes) {
  */
 export async function fetched(path, signal, http) {
   return (await ask(path, { signal, http })).blob();
+}
+
+/** How long a long answer is waited for before it is looked at again. */
+const LOOK_MS = 500;
+
+/**
+ * What an address answers, where that may take long: the service makes it in the background, says how far it is, and is
+ * told when nobody wants it any more. Throws `Refused`, or what an abort throws.
+ * @param {string} path
+ * @param {AbortSignal} signal
+ * @param {(share: number) => void} progress
+ * @param {{http?: typeof fetch, lookMs?: number}} [around]
+ */
+export async function fetchedLater(path, signal, progress, { http, lookMs = LOOK_MS } = {}) {
+  const answer = await ask(path, { signal, http, headers: { prefer: "respond-async" } });
+  if (answer.status !== 202) return answer.blob();
+  /** @type {LongAnswer} */
+  let told = await answer.json();
+  const { self, result } = told.links;
+  try {
+    while (told.state === "running") {
+      progress(told.progress);
+      await pause(lookMs, signal);
+      told = await askJson(self, { signal, http });
+    }
+    return await (await ask(result, { signal, http })).blob();
+  } finally {
+    ask(self, { method: "DELETE", http }).catch(() => null); // nobody fetches it twice
+  }
+}
+
+/** @param {number} ms @param {AbortSignal} signal @returns {Promise<void>} */
+function pause(ms, signal) {
+  return new Promise((resolve, reject) => {
+    if (signal.aborted) return void reject(signal.reason);
+    const timer = setTimeout(resolve, ms);
+    signal.addEventListener("abort", () => {
+      clearTimeout(timer);
+      reject(signal.reason);
+    }, { once: true });
+  });
 }
 
 /** Hand a file over to the browser. @param {Blob} data @param {string} name */

@@ -45,9 +45,7 @@ function bar({ look, world }, page) {
     if (act) runCommand(act, page);
   };
   const live = `${t("past.live_title")}  N`;
-  return html`<span class="past-where">
-      <span class="past-tick">${t("past.tick", { tick: look.tick })}</span><span class="past-now">${t("past.of", { now: world?.tick ?? look.tick })}</span>
-    </span>
+  return html`<span class="past-where"><span class="past-tick">${t("past.tick", { tick: look.tick })}</span><span class="past-now">${t("past.of", { now: world?.tick ?? look.tick })}</span></span>
     ${button("fork", t("past.fork"), t("past.fork_here"), run("fork"))}
     ${button("rewind", t("past.rewind"), t("past.rewind_here"), run("rewind"))}
     ${button("share", t("past.share"), t("past.share"), run("share"))}

@@ -7,6 +7,7 @@ import { ask, askJson, errorText } from "../core/http.js";
 import { newestOnly } from "../core/latest.js";
 import { SESSIONS_PATH, sessionPath } from "../core/protocol.js";
 import { dateText, t } from "../core/texts.js";
+import { themeSeen } from "../core/theme.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
 import { renameSession } from "./shareMoment.js";
 
@@ -142,7 +143,7 @@ function row(session, here, deleting, naming, does) {
   const name = nameOf(session);
   const when = dateText(new Date(created));
   // A picture wakes no session that sleeps.
-  const picture = session.live ? html`<img class="row-thumb" src="${sessionPath(id)}/frame?format=webp" alt="" loading="lazy" width="48" height="48">` : html`<span class="row-thumb"></span>`;
+  const picture = session.live ? html`<img class="row-thumb" src="${sessionPath(id)}/frame?format=webp&theme=${themeSeen()}&boxes=false&figures=false" alt="" loading="lazy" width="48" height="48">` : html`<span class="row-thumb"></span>`;
   if (naming) return html`<li class="row" data-session=${id}>${picture}${namingForm(session, does)}</li>`;
   return html`<li class="row" data-session=${id}>
     ${picture}

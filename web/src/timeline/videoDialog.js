@@ -6,7 +6,7 @@ import { errorText } from "../core/http.js";
 import { decimalText, t } from "../core/texts.js";
 import { themeSeen } from "../core/theme.js";
 import { dialogSlot, makeDialog } from "../ui/dialog.js";
-import { fetched, fileName, save, sizeText, stretch, videoPath } from "./downloads.js";
+import { fetchedLater, fileName, save, sizeText, stretch, videoPath } from "./downloads.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { VideoWish } from "./downloads.js" */
@@ -18,6 +18,7 @@ import { fetched, fileName, save, sizeText, stretch, videoPath } from "./downloa
  * @property {number} stepS  seconds of a tick
  * @property {{text: string, bad: boolean}} note
  * @property {boolean} busy
+ * @property {number | null} share  of the video that is made, where that is known
  */
 
 const CHOICES = {
@@ -31,7 +32,7 @@ export function createVideoDialog(page) {
   const dialog = makeDialog(t("video.title"));
   const body = dialogSlot(dialog);
   /** @type {Shown} */
-  let shown = { wish: { from: 0, to: 0, format: "gif", view: "road", side: 480, theme: themeSeen(), boxes: false }, now: 0, stepS: 0.5, note: { text: "", bad: false }, busy: false };
+  let shown = { wish: { from: 0, to: 0, format: "gif", view: "road", side: 480, theme: themeSeen(), boxes: false, path: true, forecast: false }, now: 0, stepS: 0.5, note: { text: "", bad: false }, busy: false, share: null };
   /** @type {AbortController | null} */ let making = null;
   dialog.addEventListener("close", () => making?.abort());
 
@@ -59,9 +60,11 @@ export function createVideoDialog(page) {
     const drawing = () => tell(t("video.drawing", { count: wish.to - wish.from, seconds: Math.round((performance.now() - began) / 1000) }));
     drawing();
     const clock = setInterval(drawing, 1_000);
-    show({ busy: true });
+    show({ busy: true, share: null });
     try {
-      const data = await fetched(videoPath(session, { ...wish, theme: themeSeen(), boxes: page.state().views.boxes }, stepS), own.signal);
+      const { boxes, path, forecast } = page.state().views;
+      const address = videoPath(session, { ...wish, theme: themeSeen(), boxes, path, forecast }, stepS);
+      const data = await fetchedLater(address, own.signal, (share) => show({ share }));
       save(data, fileName(session, `${wish.from}-${wish.to}`, wish.format));
       tell(t("video.saved", { size: sizeText(data.size) }));
     } catch (error) {
@@ -94,7 +97,7 @@ function lengthText({ from, to }, stepS) {
  * @param {Shown} shown
  * @param {{choose: (part: Partial<VideoWish>) => void, start: () => void, cancel: () => void}} does
  */
-function form({ wish, now, note, busy }, { choose, start, cancel }) {
+function form({ wish, now, note, busy, share }, { choose, start, cancel }) {
   /** @param {SubmitEvent} event */
   const submit = (event) => {
     event.preventDefault();
@@ -112,7 +115,7 @@ function form({ wish, now, note, busy }, { choose, start, cancel }) {
     ${select("view", t("video.view"))}
     <div class="form-pair">${select("format", t("video.format"))}${select("side", t("video.size"))}</div>
     <p class="dialog-note" role="status" data-tone=${note.bad ? "bad" : "plain"}>${note.text}</p>
-    ${busy ? html`<progress class="progress" aria-label=${t("video.making")}></progress>` : nothing}
+    ${busy ? html`<progress class="progress" aria-label=${t("video.making")} value=${share ?? nothing}></progress>` : nothing}
     <div class="form-end">
       ${busy ? html`<button class="button" type="button" @click=${cancel}>${t("video.cancel")}</button>` : nothing}
       <button class="button strong" type="submit" ?disabled=${busy}>${t("video.start")}</button>

@@ -14,6 +14,9 @@ export const PARTS = ["road", "schematic", "plan", "occupancy", "metrics", "log"
 /** What can lie over the road. */
 export const LAYERS = ["path", "potholes", "forecast", "boxes"];
 
+/** How the road is seen: from behind and above the vehicle in place of from above. */
+export const PERSPECTIVE = "perspective";
+
 /** What stands under the timeline: the whole run's risk, regret and clearance. */
 export const STRIP = "strip";
 
@@ -23,7 +26,7 @@ const NARROW_PX = 600;
 /** @type {Views} */
 export const INITIAL_VIEWS = {
   road: true, schematic: !(globalThis.innerWidth < NARROW_PX), plan: true, occupancy: true, metrics: true, log: true,
-  path: true, potholes: false, forecast: false, boxes: false, strip: false,
+  path: true, potholes: false, forecast: false, boxes: false, strip: false, perspective: false,
   service: false, // whether the service's own pictures are seen in place of the page's
 };
 

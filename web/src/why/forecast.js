@@ -14,22 +14,58 @@ import { sessionPath } from "../core/protocol.js";
  * @property {number} tick
  * @property {Decision | null} decision
  * @property {{tick: number, movers: Record<string, Cell>}[]} ahead
+ * @property {Cell[]} [path]  its own cells in the ticks to come, where they were asked for
  */
 
-/** How far ahead is looked. */
+/** How far ahead is looked: at the movers, and at the vehicle's own path. */
 const TICKS = 3;
+const PATH_TICKS = 8;
 
 /**
  * @param {string} session
  * @param {World} world  the one that is seen
  * @param {boolean} past  whether that is an earlier tick than the present
- * @param {typeof fetch} [http]
+ * @param {{path?: boolean, http?: typeof fetch}} [wish]  `path`: whether the vehicle's own path is wanted
  * @returns {Promise<Foresight>}
  */
-export async function foresee(session, world, past, http = fetch) {
+export async function foresee(session, world, past, { path: wanted = false, http = fetch } = {}) {
   const at = past ? `&tick=${world.tick}` : "";
-  const { tick, decision, ahead } = await askJson(`${sessionPath(session)}/forecast?ticks=${TICKS}${at}`, { http });
-  return { of: world.things, tick, decision, ahead };
+  const along = wanted ? `&path=${PATH_TICKS}` : "";
+  const { tick, decision, ahead, path } = await askJson(`${sessionPath(session)}/forecast?ticks=${TICKS}${along}${at}`, { http });
+  return { of: world.things, tick, decision, ahead, ...(wanted ? { path } : {}) };
+}
+
+/**
+ * Where movers will be in the ticks to come, as far as that was told, the next tick first.
+ * @param {State} state  as it is shown
+ */
+export function aheadOf({ foresight, world }) {
+  const tick = world?.tick ?? 0;
+  if (!foresight || foresight.tick > tick) return [];
+  return foresight.ahead.filter((each) => each.tick > tick).map(({ movers }) => movers);
+}
+
+/** Whether the vehicle's path over several ticks is shown. @param {State} state */
+export function showsPath({ views, world }) {
+  return views.perspective && views.path && world?.mode !== "manual";
+}
+
+/**
+ * The path that lies before the vehicle, from where it is seen: to the cell it goes to, and on as far as that was told.
+ * @param {State} state  as it is shown
+ * @param {{thing: {cell: Cell}, column: number, row: number} | null} ego
+ * @returns {Cell[]}  empty where none is shown
+ */
+export function pathOf(state, ego) {
+  const { foresight, world } = state;
+  if (!ego || world?.status !== "running" || !showsPath(state)) return [];
+  /** @type {Cell} */ const here = [ego.column, ego.row];
+  const to = ego.thing.cell;
+  const gone = foresight ? world.tick - foresight.tick : -1;
+  const rest = gone >= 0 ? (foresight?.path ?? []).slice(gone) : [];
+  // What was told before a jump or a change leads elsewhere.
+  const joined = rest.length > 0 && Math.abs(rest[0][0] - to[0]) <= 1 && Math.abs(rest[0][1] - to[1]) <= 1;
+  return [here, ...(here[0] === to[0] && here[1] === to[1] ? [] : [to]), ...(joined ? rest : [])];
 }
 
 /**

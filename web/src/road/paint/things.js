@@ -111,7 +111,7 @@ const PAINTERS = {
 };
 
 /** Two blinks a step. @param {number} progress */
-function blinks(progress) {
+export function blinks(progress) {
   return progress < 1 && (progress * 4) % 2 < 1.2;
 }
 

@@ -1,0 +1,42 @@
+"""A drive as a whole as JSON values: lane changes, what was left behind, how well it went."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sim.explain.lane_changes import LaneChanges
+from sim.explain.losses import Losses
+from sim.explain.passed import Passed
+from sim.explain.riskiest import Risk
+from sim.explain.waits import Waits
+from sim.state import SimState
+
+Json = dict[str, Any]
+
+
+def lane_changes_json(found: LaneChanges) -> Json:
+    """Lane changes of an episode, in their order."""
+    return {
+        "lane_changes": [
+            {"tick": each.tick, "side": "left" if each.left else "right", "diagonal": each.diagonal}
+            for each in found.found
+        ]
+    }
+
+
+def passed_json(found: Passed) -> Json:
+    """The ids of what was left behind, by kind."""
+    return {"passed": {kind.value: list(ids) for kind, ids in found.ids.items()}}
+
+
+def verdict_json(state: SimState, waited: Waits, lost: Losses | None, risk: Risk | None) -> Json:
+    """How well a drive went, in ticks; `lost` is null where it cannot be told."""
+    return {
+        "outcome": state.world.outcome,
+        "driven": waited.driven,
+        "waited": waited.total,
+        "lost": None if lost is None or lost.unknown else lost.ticks,
+        "tightest": None
+        if risk is None
+        else {"tick": risk.tick, "free": len(risk.free), "tried": len(risk.tried)},
+    }

@@ -1,0 +1,111 @@
+"""Answers about sensors and weathers beside one another: which is best, whether driving changes with them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, Final, get_args
+
+from service.narration.answer_length import Part, within
+from service.narration.answerer import Json, plain
+from service.narration.sayings import Sayings
+from service.narration.values import conditions_of, value_of
+from service.sessions.facts import Asked
+from sim.actions import Weather
+from sim.config import Config
+from sim.explain.planners import planner_of
+from sim.explain.sensing import reach
+from sim.perceive import sensor_named
+from sim.perceive.parameters import SUITES
+from sim.plan import traits_of
+from sim.state import SimState
+from sim.types import Kind
+
+PLAIN: Final = {"weather": "clear", "time_of_day": "day"}
+"""The conditions in which sensors are at their best."""
+
+
+class SensingCompared:
+    """Answers to "do you drive more carefully in fog?", "which weather is worst?", "which is best?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`."""
+        ask, state = asked.ask, asked.timeline.state
+        tell = {"care": self._care, "weathers": self._weathers, "sensors": self._sensors}[str(ask.what)]
+        text, facts = tell(state)
+        return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
+
+    def _care(self, state: SimState) -> tuple[str, Json]:
+        """No first: the rules are the same; then what the sensor detects now and at its best."""
+        config = state.config
+        told = [Part(0, self._say("care", "rule"))]
+        now, best = half_m(config), half_m(replace(config, **PLAIN))  # type: ignore[arg-type]
+        if sensor_named(config.sensor).faithful:
+            told.append(Part(0, self._say("care", "perfect")))
+        else:
+            if now is not None and best is not None and now < best:
+                key = "now" if now else "none"
+                told.append(
+                    Part(0, self._say("care", key, metres=self._metres(now), clear=self._metres(best)))
+                )
+            weighs = traits_of(planner_of(state)).weighs_costs
+            told.append(Part(1, self._say("care", "weighs" if weighs else "heedless")))
+        if config.slips:
+            percent = self._sayings.number(round(100 * config.slips, 1))
+            told.append(Part(0, self._say("care", "slips", percent=percent)))
+        return within(told), {"half_detected_m": now, "half_detected_clear_m": best, "slips": config.slips}
+
+    def _weathers(self, state: SimState) -> tuple[str, Json]:
+        """How far the sensor detects a car by day in each weather, and at night; the worst of them."""
+        config = state.config
+        if sensor_named(config.sensor).faithful:
+            return self._say("weathers", "perfect"), {"half_detected_m": None}
+        if config.sensor not in SUITES:
+            return self._say("weathers", "unknown", sensor=config.sensor), {"half_detected_m": None}
+        conditions: list[tuple[str, str]] = [("weather", each) for each in get_args(Weather)]
+        conditions.append(("time_of_day", "night"))
+        found = {
+            value_of(self._sayings, name, value): half_m(replace(config, **(PLAIN | {name: value}))) or 0.0
+            for name, value in conditions
+        }
+        sensor = value_of(self._sayings, "sensor", config.sensor)
+        worst = [name for name, metres in found.items() if metres == min(found.values())]
+        told = self._say("weathers", "told", sensor=sensor, listed=self._listed(found))
+        text = f"{told} {self._say('weathers', 'worst', worst=self._sayings.joined(worst))}"
+        return text, {"half_detected_m": found}
+
+    def _sensors(self, state: SimState) -> tuple[str, Json]:
+        """How far each sensor detects a car in the present conditions; the best of them."""
+        config = state.config
+        found = {
+            value_of(self._sayings, "sensor", name): half_m(replace(config, sensor=name)) or 0.0
+            for name in SUITES
+        }
+        plain_light = replace(config, sensor="perfect")
+        conditions = conditions_of(self._sayings, plain_light) or self._say("plain")
+        best = [name for name, metres in found.items() if metres == max(found.values())]
+        told = [
+            self._say("sensors", "told", conditions=conditions, listed=self._listed(found)),
+            self._say("sensors", "best", best=self._sayings.joined(best)),
+            self._say("sensors", "perfect"),
+        ]
+        return " ".join(told), {"half_detected_m": found}
+
+    def _listed(self, found: dict[str, float]) -> str:
+        parts = [self._say("one", name=name, metres=self._metres(each)) for name, each in found.items()]
+        return self._sayings.listed(parts)
+
+    def _metres(self, metres: float) -> str:
+        return self._sayings.number(round(metres, 1))
+
+    def _say(self, *keys: str, **parts: Any) -> str:
+        return self._sayings.say("sensing_compared", *keys, **parts)
+
+
+def half_m(config: Config) -> float | None:
+    """Metres up to which one look detects a car in half of the cases; None for a sensor without tables."""
+    found = reach(config)
+    return None if found is None else found.half[Kind.VEHICLE] * config.cell_m

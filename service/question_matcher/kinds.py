@@ -1,0 +1,72 @@
+"""The kinds of question that can be matched, and the sentences that stand for them: `prompts/questions`."""
+
+from __future__ import annotations
+
+import string
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from service.question_matcher.slots import Question
+from service.yaml_files import read_yaml
+
+Situation = Literal["running", "crash", "manual"]
+NONE_OF_THEM = "other"
+"""The kind of examples that no answer is for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Canonical:
+    """A sentence that the grammar understands, with a place for each slot it names."""
+
+    text: str
+    slots: frozenset[str]
+    """the words that it needs"""
+    marks: frozenset[str]
+    """the marks of a question that they stand for: all forms of a move are one"""
+
+    @classmethod
+    def of(cls, text: str, forms: Collection[str] = ()) -> Canonical:
+        """From a text such as "why not {going}?"; `forms`: the slots that are forms of a move."""
+        slots = frozenset(name for _, name, _, _ in string.Formatter().parse(text) if name)
+        return cls(text, slots, frozenset("move" if slot in forms else slot for slot in slots))
+
+
+@dataclass(frozen=True, slots=True)
+class QuestionKind:
+    """One kind of question: the sentences that ask it, and the slots that say nothing about it."""
+
+    name: str
+    says: tuple[Canonical, ...]
+    ignores: frozenset[str] = frozenset()
+    when: Situation | None = None
+    """the situation in which it is mostly asked"""
+    unless: frozenset[str] = frozenset()
+    """words that turn it round, such as "not": a question that has one is not of this kind"""
+
+    def sentence(self, question: Question) -> str | None:
+        """The sentence that uses all binding slots but the ignored ones; None where none does."""
+        if not self.unless.isdisjoint(question.words):
+            return None
+        binding = question.binding - self.ignores
+        fits = (each for each in self.says if each.slots <= question.slots.keys() and binding <= each.marks)
+        canonical = next(fits, None)
+        return None if canonical is None else canonical.text.format_map(question.slots)
+
+
+def read_kinds(folder: Path) -> dict[str, QuestionKind]:
+    """The kinds of a language's folder, by name. Raises `ValueError` for a file that is unfit."""
+    data: Mapping[str, Any] = read_yaml(folder / "kinds.yaml")
+    moves: Mapping[str, Mapping[str, str]] = read_yaml(folder / "words.yaml")["moves"]
+    forms = {form for of_one in moves.values() for form in of_one}
+    return {
+        name: QuestionKind(
+            name,
+            tuple(Canonical.of(text, forms) for text in entry["says"]),
+            frozenset(entry.get("ignores", ())),
+            entry.get("when"),
+            frozenset(entry.get("unless", ())),
+        )
+        for name, entry in data.items()
+    }

@@ -1,0 +1,158 @@
+"""Matches a question that the grammar refused to a sentence that it understands.
+
+The kind of the question is found by a classifier; its slots are found by the lexicon. A match is a
+sentence of the grammar, which parses it: nothing but a question about the session can come of it, and
+the answer says as what it was read. A match is unsure where two kinds are near each other, or where a
+word occurs in no example.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from service.actions import Action, Ask, Chat
+from service.grammar import Language
+from service.grammar.parse_types import Understood
+from service.grammar.topic import ALONE
+from service.grammar.work_budget import BudgetExceededError, WorkBudget
+from service.question_matcher.follow_ups import FollowUps
+from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, Situation, read_kinds
+from service.question_matcher.slots import Question, SlotWords
+from service.question_matcher.weights import FILE, Weights
+
+NEAR = 1.5
+"""Lead over another kind, in logarithms of odds, below which both are offered."""
+LIKELY = 0.3
+"""Least lead over what has no answer, for it to be asked about."""
+UNKNOWN_COST = 0.7
+"""What each unknown word takes from the lead."""
+UNUSUAL = 1.5
+"""What a kind loses that is mostly asked in other situations."""
+MOST_UNKNOWN = 2
+MIN_LETTERS = 4
+"""Shorter words are not looked for among the known ones."""
+MAX_CHOICES = 3
+MAX_WORDS = 60
+MOST_FOLLOWING = 60
+"""Letters of a follow-up."""
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """The sentences a question may stand for, the likeliest first: choices, unless the first is `sure`."""
+
+    sentences: tuple[str, ...]
+    sure: bool
+
+
+class QuestionMatcher:
+    """The matcher of one language."""
+
+    def __init__(self, language: Language, folder: Path) -> None:
+        """`folder`: of `prompts/questions`; its files are read at the first question."""
+        self._language = language
+        self._folder = folder
+
+    @cached_property
+    def _words(self) -> SlotWords:
+        return SlotWords(self._language, self._folder)
+
+    @cached_property
+    def _kinds(self) -> dict[str, QuestionKind]:
+        return read_kinds(self._folder)
+
+    @cached_property
+    def _weights(self) -> Weights:
+        return Weights.read(self._folder / FILE)
+
+    @cached_property
+    def _follow_ups(self) -> FollowUps:
+        return FollowUps(self._language, self._folder)
+
+    def follow_up(self, text: str, asked: Sequence[Action]) -> Match | None:
+        """What a few words ask after the last question; None where they are no follow-up."""
+        if len(text) > MOST_FOLLOWING or (found := self._follow_ups.match(text, asked)) is None:
+            return None
+        sentences, sure = found
+        return Match(sentences, sure)
+
+    def match(self, text: str, situations: Collection[Situation] = ()) -> Match | None:
+        """What a question may stand for in some situations; None where it is like none that has an answer."""
+        question = self._words.question(text)
+        if len(question.words) > MAX_WORDS or not self._words.says_something(question):
+            return None
+        if not self._words.asks(text, question) or self._holds_a_request(text):
+            return None
+        unknown = self._unknown(question.words)
+        if len(unknown) > MOST_UNKNOWN:
+            return None
+        scores = self._weights.scores(question.words)
+        order = sorted(
+            (
+                (
+                    score - (UNUSUAL if (when := self._kinds[kind].when) and when not in situations else 0),
+                    kind,
+                )
+                for score, kind in zip(scores.tolist(), self._weights.kinds, strict=True)
+            ),
+            key=lambda each: (-each[0], each[1]),
+        )
+        return self._decided(question, order, UNKNOWN_COST * len(unknown))
+
+    def is_of_something_else(self, text: str) -> bool:
+        """Whether a text is a question, and likest to those that no answer is for."""
+        question = self._words.question(text)
+        if not 0 < len(question.words) <= MAX_WORDS or not self._words.asks(text, question):
+            return False
+        scores = self._weights.scores(question.words)
+        likeliest = self._weights.kinds[int(scores.argmax())] == NONE_OF_THEM
+        return likeliest and not self._holds_a_request(text)
+
+    def _decided(self, question: Question, order: Sequence[tuple[float, str]], cost: float) -> Match | None:
+        """What the order of the kinds says, the likeliest first; `cost` is taken from their leads.
+
+        A kind that no sentence fits, since it leaves a slot out, is no rival of one that is likelier.
+        """
+        said = {name: self._kinds[name].sentence(question) for _, name in order}
+        rivals = [(score, said[name]) for score, name in order if said[name] or not self._kinds[name].says]
+        best, likeliest = rivals[0], order[0][0]
+        if best[1] is None or likeliest - best[0] >= NEAR:
+            return None
+        if best[0] == likeliest and best[0] - rivals[1][0] - cost >= self._weights.sure:
+            return Match((best[1],), sure=True)
+        floor = next(score for score, name in order if name == NONE_OF_THEM) + LIKELY + cost
+        near = [sentence for score, sentence in rivals if sentence and score >= max(floor, best[0] - NEAR)]
+        return Match(tuple(dict.fromkeys(near))[:MAX_CHOICES], sure=False) if near else None
+
+    def _holds_a_request(self, text: str) -> bool:
+        """Whether a part of a text asks for something to be done: nothing of that may be left out."""
+        joined = "|".join(map(re.escape, sorted(self._language.joiners)))
+        parts = [part.strip() for part in re.split(rf"[.;!?,]|\b(?:{joined})\b", text)]
+        return any(
+            self._does_something(part) for at, part in enumerate(parts) if part and (at == 0 or " " in part)
+        )
+
+    def _does_something(self, part: str) -> bool:
+        try:
+            # Not `parse`: what would be asked about or suggested is of no use here.
+            parse = self._language.read(part, ALONE, WorkBudget(), asking=False)
+        except BudgetExceededError:
+            return True
+        return isinstance(parse, Understood) and not all(
+            isinstance(each, Ask | Chat) for each in parse.actions
+        )
+
+    def _unknown(self, words: Sequence[str]) -> list[str]:
+        """The words that occur in no example that has an answer, a slip of the pen aside."""
+        known = self._weights.words
+        return [
+            word
+            for word in words
+            if len(word) >= MIN_LETTERS
+            and word not in known
+            and self._language.typos.repair(word) not in known
+        ]

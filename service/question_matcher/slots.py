@@ -1,0 +1,211 @@
+"""The slots of a question, such as the move, the thing or the planner it names, and its other words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from service.grammar import Language
+from service.grammar.lattice import Edge, Lattice
+from service.grammar.tokens import Token, normalise, tokenise
+from service.yaml_files import read_yaml
+
+STAY = "stay"
+FORWARD = "forward"
+MIN_OWN_WORDS = 2
+"""With fewer it leans on what was said before, which is not looked at here."""
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A question taken apart."""
+
+    words: tuple[str, ...]
+    """its words, with a mark such as "<move>" in the place of each slot"""
+    slots: Mapping[str, str]
+    """the words that a canonical sentence has for each slot"""
+    binding: frozenset[str]
+    """slots that an answer must not leave out"""
+
+
+@dataclass(frozen=True, slots=True)
+class _Span:
+    """Tokens `[start, end)` that name something: the mark in their place, and the words for slots."""
+
+    start: int
+    end: int
+    mark: str
+    slots: Mapping[str, str]
+
+
+class SlotWords:
+    """The words that name slots in one language."""
+
+    def __init__(self, language: Language, folder: Path) -> None:
+        """`folder`: of `prompts/questions`. Raises `YamlError` or `OSError` where its file is unfit."""
+        self._language = language
+        self._data: Mapping[str, Any] = read_yaml(folder / "words.yaml")
+
+    @cached_property
+    def _kinds(self) -> dict[str, str]:
+        """The kind that a word beside the lexicon's names."""
+        return {word: kind for kind, names in self._data["things"].items() for word in names["also"]}
+
+    def question(self, text: str) -> Question:
+        """A text taken apart."""
+        language = self._language
+        tokens = [
+            token
+            for token in tokenise(normalise(text), language.data.contractions)
+            if token.id or token.text.replace("*", "").isalnum()
+        ]
+        if not tokens:
+            return Question((), {}, frozenset())
+        spans = self._spans(tokens, language.scan(tokens))
+        words = _masked(tokens, spans)
+        slots: dict[str, str] = {}
+        binding: set[str] = set()
+        for span in spans:
+            if span.mark not in binding:
+                slots |= {slot: text for slot, text in span.slots.items() if slot not in slots}
+                binding.add(span.mark)
+            elif span.mark in _SECOND:
+                second, slot = _SECOND[span.mark]
+                if span.mark == "planner" and span.slots[slot] in (slots[slot], slots.get(second)):
+                    continue
+                binding.add(_THIRD if span.mark == "planner" and second in binding else second)
+                slots[second] = span.slots[slot]
+        if "move" not in binding:
+            moves = (move for move in (STAY, FORWARD) if any(word in self._data[move] for word in words))
+            slots |= next((self._data["moves"][move] for move in moves), {})
+        return Question(words, slots, frozenset(binding - _LOOSE))
+
+    def says_something(self, question: Question) -> bool:
+        """Whether a question has words of its own, beside slots and what stands between them."""
+        own = [word for word in question.words if word[0] != "<" and word not in self._data["openers"]]
+        return len(own) >= MIN_OWN_WORDS
+
+    def asks(self, text: str, question: Question) -> bool:
+        """Whether a text has the form of a question, or of a wish to be told."""
+        return "?" in text or not self._asking.isdisjoint(question.words)
+
+    @cached_property
+    def _asking(self) -> frozenset[str]:
+        return frozenset(self._data["asking"])
+
+    def _spans(self, tokens: Sequence[Token], lattice: Lattice) -> list[_Span]:
+        found: list[_Span] = []
+        taken = [False] * len(tokens)
+        for spotted in (self._values, self._things, self._places):
+            for span in sorted(spotted(tokens, lattice), key=lambda span: (span.start, -span.end)):
+                if not any(taken[span.start : span.end]):
+                    taken[span.start : span.end] = [True] * (span.end - span.start)
+                    found.append(span)
+        return sorted(found, key=lambda span: span.start)
+
+    def _values(self, tokens: Sequence[Token], lattice: Lattice) -> Iterator[_Span]:
+        """Ticks, planners, sensors, weathers, terms."""
+        for edge in lattice.all():
+            mark = _VALUES.get(edge.concept)
+            if mark is None or edge.sense.value is None or edge.part:
+                continue
+            value = str(edge.sense.value)
+            if mark == "weather":
+                value = self._data["weathers"].get(value, value)
+            elif mark in ("planner", "sensor"):
+                value = _text(tokens, edge.start, edge.end)
+            yield _Span(edge.start, edge.end, mark, {mark: value})
+
+    def _things(self, tokens: Sequence[Token], lattice: Lattice) -> Iterator[_Span]:
+        """Things: one that is meant, with the words around it that say which; or a kind of things."""
+        nouns = [(edge.start, edge.end, edge.concept, str(edge.sense.value)) for edge in lattice.all()]
+        for at, token in enumerate(tokens):
+            if token.text in self._kinds:
+                nouns.append((at, at + 1, _ONE, self._kinds[token.text]))
+            if token.text in self._data["pronouns"]:
+                nouns.append((at, at + 1, _ONE, self._data["pronouns"][token.text]))
+        for first, end, concept, kind in nouns:
+            names = self._data["things"].get(kind)
+            if concept not in (_ONE, _MANY) or names is None:
+                continue
+            start = first
+            while start > 0 and tokens[start - 1].text in self._data["determiners"]:
+                start -= 1
+            slots = {"things": names["many"], "nearest": names["nearest"], "a_thing": names["a"]}
+            if concept == _MANY or (start and tokens[start - 1].text in self._data["indefinite"]):
+                yield _Span(first, end, "things", slots)
+                continue
+            places = lattice.edges[end] if end < len(tokens) else ()
+            place = next((edge for edge in places if _is_place(edge)), None)
+            if place is None:
+                yield _Span(start, end, "thing", slots | {"thing": names["this"]})
+            else:
+                where = _text(tokens, place.start, place.end)
+                yield _Span(start, place.end, "thing", slots | {"thing": f"{names['one']} {where}"})
+
+    def _is_a_move(self, edge: Edge, tokens: Sequence[Token]) -> bool:
+        before = tokens[edge.start - 1].text if edge.start else ""
+        after = tokens[edge.end].text if edge.end < len(tokens) else ""
+        beside = self._data["no_move"]
+        return before not in beside["after"] and after not in beside["before"]
+
+    def _places(self, tokens: Sequence[Token], lattice: Lattice) -> Iterator[_Span]:
+        """Sides, directions and numbers."""
+        for edge in lattice.all():
+            if edge.part:
+                continue
+            opening = tokens[edge.start].text
+            if edge.concept == "side" and opening in self._data["sides"]:
+                end = edge.end
+                while end < len(tokens) and tokens[end].text in self._data["of_a_side"]:
+                    end += 1
+                if end < len(tokens) and tokens[end].text in self._data["elsewhere"]:
+                    yield _Span(edge.start, end + 1, "elsewhere", {})
+                else:
+                    yield _Span(edge.start, end, "side", {"side": _text(tokens, edge.start, edge.end)})
+            elif edge.concept == "dir" and opening not in self._data["sides"]:
+                value = str(edge.sense.value)
+                if self._data["moves"].keys() - {FORWARD, STAY} >= {value} and self._is_a_move(edge, tokens):
+                    yield _Span(edge.start, edge.end, "move", self._data["moves"][value])
+            elif edge.concept == "number" and edge.sense.value not in (0, 1):
+                yield _Span(edge.start, edge.end, "n", {"n": str(edge.sense.value)})
+
+
+_ONE, _MANY = "noun.thing.one", "noun.thing.many"
+_VALUES = {
+    "tick": "tick",
+    "ticks_back": "ticks",
+    "planner": "planner",
+    "sensor": "sensor",
+    "weather": "weather",
+    "time_of_day": "weather",
+}
+_SECOND = {"move": ("instead", "going"), "tick": ("until", "tick"), "planner": ("planner_too", "planner")}
+"""The slot of a second one, and which of its words."""
+_THIRD = "third"
+"""Binding where three planners are named: no sentence has room for them."""
+_LOOSE = frozenset(("things",))
+"""Marks of what a question may name in passing."""
+
+
+def _masked(tokens: Sequence[Token], spans: Sequence[_Span]) -> tuple[str, ...]:
+    """The words, with a mark in the place of each span."""
+    starts = {span.start: span for span in spans}
+    words: list[str] = []
+    at = 0
+    while at < len(tokens):
+        span = starts.get(at)
+        words.append(tokens[at].text if span is None else f"<{span.mark}>")
+        at = at + 1 if span is None else span.end
+    return tuple(words)
+
+
+def _is_place(edge: Edge) -> bool:
+    return edge.concept in ("side", "place") and not edge.part
+
+
+def _text(tokens: Sequence[Token], start: int, end: int) -> str:
+    return " ".join(token.text for token in tokens[start:end])

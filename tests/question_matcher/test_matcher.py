@@ -1,0 +1,211 @@
+"""Questions in free words: what is matched is a question, and nothing that was asked for is left out."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from service.actions import Ask
+from service.grammar import Language
+from service.grammar.parse_types import Understood
+from service.question_matcher.kinds import NONE_OF_THEM, read_kinds
+from service.question_matcher.matcher import QuestionMatcher
+from service.question_matcher.slots import SlotWords
+from service.question_matcher.weights import FILE, Weights
+from service.resources import prompts_folder
+from service.yaml_files import read_yaml
+from tools.train_question_matcher import sources_of
+
+FOLDER = prompts_folder() / "questions" / "en"
+LANGUAGES = ("en", "de")
+SLOTS = {
+    "tick": "7",
+    "until": "9",
+    "ticks": "2",
+    "n": "5",
+    "planner": "Dijkstra",
+    "planner_too": "A*",
+    "sensor": "Lidar",
+    "term": "regret",
+}
+THINGS = {
+    "en": {
+        "weather": "foggy",
+        "thing": "the car on the left",
+        "things": "cars",
+        "nearest": "the nearest car",
+        "a_thing": "a car",
+        "side": "on the left",
+    },
+    "de": {
+        "weather": "Nebel",
+        "thing": "das Auto links",
+        "things": "Autos",
+        "nearest": "das nächste Auto",
+        "a_thing": "ein Auto",
+        "side": "links",
+    },
+}
+
+
+def folder_of(code: str) -> Path:
+    return prompts_folder() / "questions" / code
+
+
+@pytest.fixture(scope="module")
+def language() -> Language:
+    return Language.load("en")
+
+
+@pytest.fixture(scope="module")
+def matcher(language: Language) -> QuestionMatcher:
+    return QuestionMatcher(language, FOLDER)
+
+
+@pytest.mark.parametrize("move", ["left", "forward_right", "stay"])
+@pytest.mark.parametrize("code", LANGUAGES)
+def test_canonical_sentences_are_questions(code, move):
+    language, folder = Language.load(code), folder_of(code)
+    moves = read_yaml(folder / "words.yaml")["moves"]
+    slots = {**SLOTS, **THINGS[code], **moves[move], "instead": moves["right"]["going"]}
+    said = 0
+    for kind in read_kinds(folder).values():
+        for canonical in kind.says:
+            if canonical.slots <= slots.keys():
+                sentence = canonical.text.format_map(slots)
+                parse = language.parse(sentence)
+                assert isinstance(parse, Understood), sentence
+                assert all(isinstance(action, Ask) for action in parse.actions), sentence
+                said += 1
+    assert said > 60
+
+
+@pytest.mark.parametrize("code", LANGUAGES)
+def test_weights_are_of_the_present_examples(code):
+    folder = folder_of(code)
+    assert Weights.read(folder / FILE).sources == sources_of(folder), "run tools.train_question_matcher"
+
+
+def test_weights_survive_a_file(tmp_path: Path):
+    weights = Weights.read(FOLDER / FILE)
+    weights.write(tmp_path / FILE)
+    again = Weights.read(tmp_path / FILE)
+    words = ("why", "did", "you", "stop")
+    assert np.array_equal(again.scores(words), weights.scores(words))
+    assert again.rows == weights.rows
+    assert again.words == weights.words
+
+
+@pytest.mark.parametrize("code", LANGUAGES)
+def test_examples_are_of_known_kinds_and_of_one_each(code):
+    examples = read_yaml(folder_of(code) / "examples.yaml")
+    assert examples.keys() == read_kinds(folder_of(code)).keys()
+    said = Counter(re.sub(r"\W+", " ", text.lower()).strip() for texts in examples.values() for text in texts)
+    doubled = [text for text, count in said.items() if count > 1]
+    assert not doubled
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("on what grounds did you veer off to the left?", "why did you go left?"),
+        ("why on earth would you not simply go right?", "why didn't you go right?"),
+        ("when do you reckon we get to the finish", "when will we arrive?"),
+        ("would dijkstra have picked the same move in this spot?", "what would dijkstra do here?"),
+        (
+            "suppose that pothole had not been in the road, would you drive differently?",
+            "what if that pothole weren't there?",
+        ),
+        ("what went on from tick 3 to tick 9?", "what happened between 3 and 9?"),
+    ],
+)
+def test_paraphrases(text, sentence, matcher):
+    match = matcher.match(text, ("running",))
+    assert match is not None
+    assert sentence in match.sentences
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "stop the simulation, and why on earth did you veer off to the left?",
+        "whyever did you veer off like that, and then add five potholes",
+        "add three cars. what made you veer off?",
+    ],
+)
+def test_a_request_beside_a_question_is_not_left_out(text, matcher):
+    assert matcher.match(text, ("running",)) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("Aus welchem Grund bist du denn gerade nach links ausgewichen?", "warum bist du links gefahren?"),
+        ("wann sind wir denn endlich am Ziel, ungefähr", "wann kommen wir an?"),
+        ("Wer trägt eigentlich die Schuld an dem Unfall?", "wer war schuld?"),
+    ],
+)
+def test_german_paraphrases(text, sentence):
+    match = QuestionMatcher(Language.load("de"), folder_of("de")).match(text, ("crash", "running"))
+    assert match is not None
+    assert sentence in match.sentences
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "who will win the next federal election?",
+        "what is the capital of Peru?",
+        "how do I cook rice without a lid?",
+        "can you write me a launch email for our marketing list?",
+        "start over before that",
+        "the first one",
+        "and Dijkstra?",
+        "what about the car on the left",
+        "and what is behind it?",
+        "what would have come of it had you not gone left?",
+        "",
+        "?!",
+        "why " * 200,
+    ],
+)
+def test_other_questions_are_not_matched(text, matcher):
+    assert matcher.match(text, ("running",)) is None
+
+
+def test_a_slot_is_not_left_out(matcher):
+    match = matcher.match("for what reason did you veer left at tick 7 of all moments?", ("running",))
+    assert match is not None
+    assert all("7" in sentence for sentence in match.sentences)
+
+
+def test_what_is_turned_round_is_not_answered_the_other_way(matcher):
+    match = matcher.match("what if there was no snow on the road at all?", ("running",))
+    assert match is None or "snowy" not in " ".join(match.sentences)
+
+
+def test_kinds_of_other_situations_are_less_likely(matcher):
+    text, of_a_crash = "could we have done any better there?", "could you have avoided it?"
+    crashed = matcher.match(text, ("crash",))
+    driving = matcher.match(text, ("running",))
+    assert crashed is not None
+    assert driving is not None
+    assert crashed.sentences.index(of_a_crash) < driving.sentences.index(of_a_crash)
+
+
+def test_words_that_no_answer_is_for_are_unknown():
+    weights = Weights.read(FOLDER / FILE)
+    examples = read_yaml(FOLDER / "examples.yaml")
+    words = SlotWords(Language.load("en"), FOLDER)
+    answered = {
+        word
+        for kind, texts in examples.items()
+        if kind != NONE_OF_THEM
+        for text in texts[:3]
+        for word in words.question(text).words
+    }
+    assert answered <= weights.words

