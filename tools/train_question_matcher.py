@@ -66,7 +66,7 @@ def sources_of(folder: Path) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """A matrix whose first columns are sparse and whose others are not: each part is multiplied in its way."""
+    """A matrix whose first columns are sparse and whose others are not: each is multiplied in its way."""
 
     sparse: csr_matrix
     dense: NDArray[np.float32]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Final, get_args
+from typing import Any, get_args
 
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, plain
@@ -19,7 +19,6 @@ from sim.perceive.parameters import SUITES
 from sim.plan import traits_of
 from sim.state import SimState
 from sim.types import Kind
-
 
 
 class SensingCompared:
