@@ -1,7 +1,8 @@
-"""Which moment a question is about that is asked while a past tick is looked at, and names no tick of its own.
+"""Which moment a question is about that is asked while a past tick is looked at.
 
-Questions of one decision are about that tick; most others about the road as it was then; those of a whole drive
-about the drive that the tick belongs to. Some are about no moment, and some only about the present.
+Questions of one decision are about that tick; most others about the road as it was then; those of a whole
+drive about the drive that the tick belongs to. Some are about no moment, some only about the present, and
+some name a tick of their own.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ from typing import Final, Literal
 from service.actions.action import Ask
 
 Moment = Literal["decision", "state", "drive", "present", "none"]
-"""`decision`: the one taken at the tick; `state`: how it stood at the tick; `drive`: the whole episode of the
-tick; `present`: now, whatever is looked at; `none`: no moment at all, or one that the question brings along."""
+"""`decision`: the one taken at the tick; `state`: how it stood then; `drive`: the whole episode of the tick;
+`present`: now, whatever is looked at; `none`: no moment at all, or one that the question brings along."""
 
 _OF: Final[Mapping[str, Moment]] = {
     **dict.fromkeys(("why", "why_not", "what_if", "other"), "decision"),

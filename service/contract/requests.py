@@ -36,8 +36,8 @@ Strictly = Annotated[Value, BeforeValidator(_strictly)]
 _LANGUAGE = "In which language; `GET /language` names them. Default: the session's."
 
 AT_TICK = (
-    "The past tick that is looked at: a question that names no tick of its own is asked of it, and the answer "
-    "says which moment it is about. Orders are done now all the same. Default: now."
+    "The past tick that is looked at: a question that names no tick of its own is asked of it, and the "
+    "answer says which moment it is about. Orders are done now all the same. Default: now."
 )
 
 MAX_ACTIONS = 100

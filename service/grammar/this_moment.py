@@ -1,4 +1,4 @@
-"""Reads questions of the moment that is looked at: "why didn't you go right here?", "what else, at this tick?".
+"""Reads questions of the moment that is looked at: "why didn't you go right here?", "what do you see now?".
 
 The words for it say nothing that a question does not mean without them. Where things are named they may be a
 place as well ("is there a car here?"), and are not passed over.

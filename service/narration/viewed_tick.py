@@ -1,4 +1,4 @@
-"""Questions asked while a past tick is looked at: each is answered about its moment, and the answer says which."""
+"""Questions asked while a past tick is looked at: each answer is about its moment, and says which that is."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def _is_made(timeline: Timeline, tick: int, move: Move | None) -> bool:
 
 
 def _end_of_episode(timeline: Timeline, tick: int) -> int:
-    """The last tick of the episode that a tick belongs to. Episodes are numbered upwards: it is found by halves."""
+    """The last tick of the episode that a tick belongs to; found by halves, as episodes count upwards."""
     episode = timeline.at(tick).world.episode
     if timeline.state.world.episode == episode:
         return timeline.tick

@@ -1,4 +1,4 @@
-"""Words for the moment that is looked at, in questions: they say nothing more there, and make no order possible."""
+"""Words for the moment that is looked at: they say nothing more in a question, and none in an order."""
 
 from __future__ import annotations
 
@@ -43,6 +43,7 @@ def test_this_moment_is_not_the_one_spoken_of_where_another_is_looked_at() -> No
     text = "warum bist du in diesem Moment nicht nach rechts gefahren?"
     spoken = parse(LANGUAGES["de"], text, Topic(tick=7))
     viewed = parse(LANGUAGES["de"], text, Topic(tick=7, looks_back=True))
-    assert isinstance(spoken, Understood) and isinstance(viewed, Understood)
+    assert isinstance(spoken, Understood)
+    assert isinstance(viewed, Understood)
     assert spoken.actions == (Ask(about="why_not", move=Move.RIGHT, tick=7),)
     assert viewed.actions == (Ask(about="why_not", move=Move.RIGHT),)

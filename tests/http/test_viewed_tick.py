@@ -1,4 +1,4 @@
-"""Questions asked while a past tick is looked at: each is about its moment and says which; orders are done now."""
+"""Questions asked while a past tick is looked at: each is about its moment. Orders are done now."""
 
 from __future__ import annotations
 

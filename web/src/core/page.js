@@ -37,6 +37,8 @@ import { LANGUAGE } from "./texts.js";
  * @property {(call: (data: ArrayBuffer) => void) => void} onPicture  be called with each picture that the service sends
  */
 
+/** @typedef {Extract<ClientMessage, {type: "command" | "actions"}>} Said */
+
 /**
  * @param {Store<State, Event>} store
  * @param {Connector} connector
@@ -51,13 +53,16 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
   /**
    * @param {string} label
    * @param {boolean} quiet
-   * @param {(id: string) => ClientMessage} message
+   * @param {(id: string) => Said} message
    */
   function exchange(label, quiet, message) {
     exchanges += 1;
     const id = `${visit}-${exchanges}`;
-    dispatch({ type: "said", id, text: label, quiet });
-    if (!connector.send(message(id))) dispatch({ type: "unsent", id });
+    const { tick } = state().look;
+    dispatch({ type: "said", id, text: label, quiet, at: tick });
+    const sent = message(id);
+    // What is asked is asked of the tick that is looked at.
+    if (!connector.send(tick === null ? sent : { ...sent, at_tick: tick })) dispatch({ type: "unsent", id });
     return id;
   }
 
@@ -76,7 +81,7 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
   function answerHere(text, reply) {
     exchanges += 1;
     const id = `${visit}-${exchanges}`;
-    dispatch({ type: "said", id, text, quiet: false });
+    dispatch({ type: "said", id, text, quiet: false, at: null });
     dispatch({ type: "done-here", id, text, reply });
   }
 

@@ -12,8 +12,8 @@ import { shownBy } from "./shown.js";
 /** @import { Action, Answer, Option } from "../core/protocol.js" */
 /** @import { Highlight } from "../core/state.js" */
 
-/** @param {Answer} answer @param {string} reply @param {Page} page */
-export function answerTemplate(answer, reply, page) {
+/** @param {Answer} answer @param {string} reply @param {Page} page @param {number | null} at  the past tick that was looked at when it was asked */
+export function answerTemplate(answer, reply, page, at) {
   const causes = answer.causes ?? [];
   const others = (answer.alternatives ?? []).filter(({ move }) => move !== answer.move);
   const play = answer.play ?? answer.counterfactual;
@@ -22,6 +22,7 @@ export function answerTemplate(answer, reply, page) {
   const hide = () => page.highlight(null);
   return html`<div class="answer" @pointerenter=${show} @pointerleave=${hide}>
     <p class="reply">${answer.text || reply}</p>
+    ${answer.tick !== null && (answer.tick === at || others.length > 0) ? tickTemplate(answer.tick, page) : nothing}
     ${
       causes.length > 0
         ? html`<ul class="causes" aria-label=${t("answer.causes")}>${causes.map((cause) => causeTemplate(cause, whole, page))}</ul>
@@ -31,6 +32,12 @@ export function answerTemplate(answer, reply, page) {
     ${others.length > 0 ? alternativesTemplate(others, answer.tick, page) : nothing}
     ${play?.at_tick === undefined ? nothing : playButton(play, page)}
   </div>`;
+}
+
+/** The tick that is spoken of, and the way there. @param {number} tick @param {Page} page */
+function tickTemplate(tick, page) {
+  const go = () => void page.timeTravel.at(tick);
+  return html`<button class="answer-tick" type="button" title=${t("answer.go", { tick })} @click=${go}>${t("answer.at", { tick })}</button>`;
 }
 
 /** @param {Answer["causes"][number]} cause @param {Highlight | null} whole  what all of the answer points at @param {Page} page */
