@@ -37,7 +37,7 @@ from service.narration.soon import Soon
 from service.narration.status import Help, Status
 from service.narration.stretches import Stretches
 from service.narration.talk import OpenQuestion, RecentChanges
-from service.narration.viewed_tick import at_viewed_tick
+from service.narration.asked_moment import at_its_moment
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.narration.world import Worlds
@@ -116,7 +116,7 @@ class Answers:
         if isinstance(asked, Advised):
             return self._advices.answer(asked)
         named = asked.ask.tick
-        asked, preface = at_viewed_tick(asked)
+        asked, preface = at_its_moment(asked)
         answer = self._answer(asked)
         tick = asked.timeline.tick if asked.ask.tick is None else asked.ask.tick
         if asked.ask.tick != named:

@@ -37,6 +37,11 @@ import { LANGUAGE } from "./texts.js";
  * @property {(call: (data: ArrayBuffer) => void) => void} onPicture  be called with each picture that the service sends
  */
 
+/** Whether it surely is a question, as far as that can be told before it is answered. @param {Said} sent */
+function asks(sent) {
+  return sent.type === "command" ? sent.text.trimEnd().endsWith("?") : sent.actions.every((action) => action.do === "ask");
+}
+
 /** @typedef {Extract<ClientMessage, {type: "command" | "actions"}>} Said */
 
 /**
@@ -59,8 +64,8 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
     exchanges += 1;
     const id = `${visit}-${exchanges}`;
     const { tick } = state().look;
-    dispatch({ type: "said", id, text: label, quiet, at: tick });
     const sent = message(id);
+    dispatch({ type: "said", id, text: label, quiet, asks: asks(sent) });
     // What is asked is asked of the tick that is looked at.
     if (!connector.send(tick === null ? sent : { ...sent, at_tick: tick })) dispatch({ type: "unsent", id });
     return id;
@@ -81,7 +86,7 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
   function answerHere(text, reply) {
     exchanges += 1;
     const id = `${visit}-${exchanges}`;
-    dispatch({ type: "said", id, text, quiet: false, at: null });
+    dispatch({ type: "said", id, text, quiet: false });
     dispatch({ type: "done-here", id, text, reply });
   }
 

@@ -85,7 +85,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @typedef {{type: "session", id: string}
  *   | {type: "phase", phase: Phase}
  *   | {type: "trouble", text: string}
- *   | {type: "said", id: string, text: string, quiet: boolean, at?: number | null}
+ *   | {type: "said", id: string, text: string, quiet: boolean, asks?: boolean}
  *   | {type: "unsent", id: string}
  *   | {type: "highlight", highlight: Highlight | null}
  *   | {type: "notice", notice: Notice | null}

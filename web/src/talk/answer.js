@@ -12,8 +12,8 @@ import { shownBy } from "./shown.js";
 /** @import { Action, Answer, Option } from "../core/protocol.js" */
 /** @import { Highlight } from "../core/state.js" */
 
-/** @param {Answer} answer @param {string} reply @param {Page} page @param {number | null} at  the past tick that was looked at when it was asked */
-export function answerTemplate(answer, reply, page, at) {
+/** @param {Answer} answer @param {string} reply @param {Page} page */
+export function answerTemplate(answer, reply, page) {
   const causes = answer.causes ?? [];
   const others = (answer.alternatives ?? []).filter(({ move }) => move !== answer.move);
   const play = answer.play ?? answer.counterfactual;
@@ -22,7 +22,7 @@ export function answerTemplate(answer, reply, page, at) {
   const hide = () => page.highlight(null);
   return html`<div class="answer" @pointerenter=${show} @pointerleave=${hide}>
     <p class="reply">${answer.text || reply}</p>
-    ${answer.tick !== null && (answer.tick === at || others.length > 0) ? tickTemplate(answer.tick, page) : nothing}
+    ${answer.tick !== null && others.length > 0 ? tickTemplate(answer.tick, page) : nothing}
     ${
       causes.length > 0
         ? html`<ul class="causes" aria-label=${t("answer.causes")}>${causes.map((cause) => causeTemplate(cause, whole, page))}</ul>

@@ -17,23 +17,23 @@ import { changesOf } from "./exchanges.js";
  * @param {{undos: number, taken: boolean, open: boolean}} standing  how many undos would take it back, 0 where none would;
  *     whether it was; whether its question waits for an answer
  */
-export function exchangeTemplate({ id, said, standing, result, problem, at = null }, page, { undos, taken, open }) {
+export function exchangeTemplate({ id, said, standing, result, problem, asks }, page, { undos, taken, open }) {
   return html`<article class="exchange" data-standing=${problem?.choices?.length ? "asked" : standing} data-id=${id}>
     <p class="said">${sentence(said, problem?.unparsed ?? [])}</p>
     ${standing === "pending" ? html`<p class="reply pending"><span class="dots" role="img" aria-label=${t("exchange.waiting")}></span></p>` : nothing}
-    ${standing === "unknown" ? html`<p class="reply">${t("exchange.lost")}</p>` : nothing}
-    ${result ? resultTemplate(result, page, { undos, taken, at }) : nothing} ${problem ? problemTemplate(problem, page, open) : nothing}
+    ${standing === "unknown" ? html`<p class="reply">${t(asks ? "exchange.lost_question" : "exchange.lost")}</p>` : nothing}
+    ${result ? resultTemplate(result, page, undos, taken) : nothing} ${problem ? problemTemplate(problem, page, open) : nothing}
   </article>`;
 }
 
-/** @param {CommandResult} result @param {Page} page @param {{undos: number, taken: boolean, at: number | null}} standing */
-function resultTemplate(result, page, { undos, taken, at }) {
+/** @param {CommandResult} result @param {Page} page @param {number} undos @param {boolean} taken */
+function resultTemplate(result, page, undos, taken) {
   const changes = changesOf(result);
   // Settings stand behind what is on the road; one that changes alone is what the sentence was about.
   const onRoad = changes.length === 1 ? changes : changes.filter(({ path }) => !isSetting(path));
   const settings = changes.filter((change) => !onRoad.includes(change));
   return html`${(result.corrections ?? []).map(correction)}
-    ${readAs(result)} ${result.answer ? answerTemplate(result.answer, result.reply, page, at) : html`<p class="reply">${result.reply.replaceAll(" → ", "\u00a0→\u00a0")}</p>`}
+    ${readAs(result)} ${result.answer ? answerTemplate(result.answer, result.reply, page) : html`<p class="reply">${result.reply.replaceAll(" → ", "\u00a0→\u00a0")}</p>`}
     ${(result.evaluations ?? []).map(reportLink)}
     ${
       // A thing moved changes no figure, and can be taken back all the same.

@@ -1,9 +1,13 @@
-"""Questions asked while a past tick is looked at: each answer is about its moment, and says which that is."""
+"""The moment that a question is about, where that is not now; the answer says which it is.
+
+While a past tick is looked at that is its moment. Of a drive that has just begun nothing can be said yet: how
+it went is told of the one before.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Literal
+from typing import Final, Literal
 
 from service.actions import Ask
 from service.actions.question_moments import moment_of
@@ -12,11 +16,14 @@ from sim.explain.query import SAID_OF
 from sim.session.timeline import Timeline
 from sim.types import Move, Outcome
 
-Preface = Literal["then", "drive", "now"]
-"""What an answer begins with: at that tick, of that whole drive, or now."""
+Preface = Literal["then", "drive", "before", "now"]
+"""What an answer begins with: at that tick, of that whole drive, of the drive before, or now."""
+
+JUST_BEGUN_TICKS: Final = 5
+"""A drive that is younger than this has not gone well or badly yet."""
 
 
-def at_viewed_tick(asked: Asked) -> tuple[Asked, Preface | None]:
+def at_its_moment(asked: Asked) -> tuple[Asked, Preface | None]:
     """The question as it is asked of the tick that is looked at, and what its answer begins with.
 
     The past is asked like the present: on a timeline that ends there. An answer that names its tick by itself
@@ -24,7 +31,7 @@ def at_viewed_tick(asked: Asked) -> tuple[Asked, Preface | None]:
     """
     tick, ask, timeline = asked.viewed, asked.ask, asked.timeline
     if tick is None or tick >= timeline.tick:
-        return asked, None
+        return _of_drive_before(asked)
     match moment_of(ask, asked.supposes):
         case "none":
             return asked, None
@@ -41,6 +48,16 @@ def at_viewed_tick(asked: Asked) -> tuple[Asked, Preface | None]:
             return past, None if ask.ticks is not None and _says_tick(ask) else "then"
 
 
+def _of_drive_before(asked: Asked) -> tuple[Asked, Preface | None]:
+    """The question of the drive before, where it is about a drive and the present one has just begun."""
+    world = asked.timeline.state.world
+    least = JUST_BEGUN_TICKS if asked.ask.what == "verdict" else 1
+    of_drive = asked.ask.about == "history" and moment_of(asked.ask) == "drive"
+    if not of_drive or not world.episode_start or world.episode_tick >= least or world.ended is not None:
+        return asked, None
+    return replace(asked, timeline=until(asked.timeline, world.episode_start - 1)), "before"
+
+
 def until(timeline: Timeline, tick: int) -> Timeline:
     """The same timeline with a past tick as its present one."""
     if tick == timeline.tick:
@@ -48,6 +65,17 @@ def until(timeline: Timeline, tick: int) -> Timeline:
     earlier = timeline.copy()
     earlier.rewind(tick)
     return earlier
+
+
+def where_stuck(timeline: Timeline) -> Timeline | None:
+    """The timeline up to where the ego got no further; None unless the episode has ended stuck."""
+    world = timeline.state.world
+    if world.outcome is not Outcome.STUCK or world.ended is None:
+        return None
+    road = world.road
+    states = timeline.between(world.episode_start, world.ended)
+    nearest = min(states, key=lambda state: road.cell(state.world.av)[1], default=None)
+    return None if nearest is None else until(timeline, nearest.world.tick)
 
 
 def _says_tick(ask: Ask) -> bool:
