@@ -23,11 +23,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize
-from scipy.sparse import csr_matrix, hstack
+from scipy.sparse import csr_matrix
 
 from service.grammar import Language
 from service.question_matcher.features import features_of
@@ -64,6 +65,29 @@ def sources_of(folder: Path) -> str:
 
 
 @dataclass(frozen=True, slots=True)
+class Rows:
+    """A matrix whose first columns are sparse and whose others are not: each is multiplied in its way."""
+
+    sparse: csr_matrix
+    dense: NDArray[np.float32]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows, columns."""
+        return self.sparse.shape[0], self.sparse.shape[1] + self.dense.shape[1]
+
+    def times(self, weights: NDArray[Any]) -> NDArray[np.float32]:
+        """The product with [column, kind]."""
+        width = self.sparse.shape[1]
+        found: NDArray[np.float32] = self.sparse @ weights[:width] + self.dense @ weights[width:]
+        return found
+
+    def transposed_times(self, slope: NDArray[np.float32]) -> NDArray[np.float32]:
+        """The product of the transpose with [row, kind]."""
+        return np.vstack([self.sparse.T @ slope, self.dense.T @ slope])
+
+
+@dataclass(frozen=True, slots=True)
 class Inputs:
     """How questions become rows of numbers."""
 
@@ -83,11 +107,11 @@ class Inputs:
             {word: vector * weight[word] for word, vector in vectors.items()},
         )
 
-    def matrix(self, examples: Sequence[Words]) -> csr_matrix:
+    def matrix(self, examples: Sequence[Words]) -> Rows:
         """[example, features + vector + bias]."""
         data, columns, ends = [], [], [0]
         size = next((len(vector) for vector in self.vectors.values()), 0)
-        dense = np.zeros((len(examples), size + 1))
+        dense = np.zeros((len(examples), size + 1), np.float32)
         dense[:, -1] = 1
         for row, words in enumerate(examples):
             share = 1 / max(len(words), 1) ** 0.5
@@ -97,8 +121,8 @@ class Inputs:
             ends.append(len(columns))
             for word in set(words) & self.vectors.keys():
                 dense[row, :-1] += self.vectors[word] * share
-        sparse = csr_matrix((data, columns, ends), shape=(len(examples), len(self.columns)))
-        return hstack([sparse, csr_matrix(dense)]).tocsr()
+        shape = len(examples), len(self.columns)
+        return Rows(csr_matrix((np.array(data, np.float32), columns, ends), shape=shape), dense)
 
     def rows_of(self, learnt: NDArray[np.float64]) -> tuple[dict[str, int], NDArray[np.float64]]:
         """The row of each feature, and the weights [row, kind]; the last is the bias."""
@@ -155,24 +179,25 @@ def _unit(vector: ArrayLike) -> NDArray[np.float64]:
     return unit
 
 
-def learn(examples: csr_matrix, kinds: NDArray[np.int64], count: int) -> NDArray[np.float64]:
+def learn(examples: Rows, kinds: NDArray[np.int64], count: int) -> NDArray[np.float64]:
     """The weights [feature, kind]."""
-    wanted = np.zeros((examples.shape[0], count))
+    wanted = np.zeros((examples.shape[0], count), np.float32)
     wanted[np.arange(len(kinds)), kinds] = 1
     shape = (examples.shape[1], count)
 
     def loss(flat: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
-        weights = flat.reshape(shape)
-        scores = examples @ weights
+        weights = flat.reshape(shape).astype(np.float32)
+        scores = examples.times(weights)
         scores -= scores.max(axis=1, keepdims=True)
         chances = np.exp(scores)
         chances /= chances.sum(axis=1, keepdims=True)
-        value = -np.log(chances[np.arange(len(kinds)), kinds] + 1e-12).sum()
-        slope = examples.T @ (chances - wanted) + PENALTY * weights
-        return value + PENALTY / 2 * float((weights * weights).sum()), np.asarray(slope).ravel()
+        value = -np.log(chances[np.arange(len(kinds)), kinds] + 1e-12).sum(dtype=float)
+        slope = examples.transposed_times(chances - wanted) + PENALTY * weights
+        return float(value + PENALTY / 2 * (weights * weights).sum()), slope.ravel().astype(float)
 
     found = minimize(loss, np.zeros(shape).ravel(), jac=True, method="L-BFGS-B", options={"maxiter": 70})
-    return found.x.reshape(shape)
+    weights: NDArray[np.float64] = found.x.reshape(shape)
+    return weights
 
 
 def cross_validated(
@@ -185,17 +210,17 @@ def cross_validated(
     margin = np.zeros(len(examples))
     mistakes: Counter[tuple[str, str]] = Counter()
     for each in range(parts):
-        inside, outside = np.flatnonzero(part != each), np.flatnonzero(part == each)
+        inside, outside = np.flatnonzero(part != each).tolist(), np.flatnonzero(part == each).tolist()
         inputs = Inputs.of([examples[at] for at in inside], vectors)
         weights = learn(inputs.matrix([examples[at] for at in inside]), kinds[inside], len(names))
-        scores = np.asarray(inputs.matrix([examples[at] for at in outside]) @ weights)
+        scores = inputs.matrix([examples[at] for at in outside]).times(weights)
         order = np.sort(scores, axis=1)
         found = scores.argmax(axis=1)
         right[outside] = found == kinds[outside]
         margin[outside] = order[:, -1] - order[:, -2]
         mistakes.update((names[k], names[f]) for k, f in zip(kinds[outside], found, strict=True) if k != f)
     right, margin = right[tried], margin[tried]
-    sure = next((each for each in MARGINS if right[margin >= each].mean() >= RIGHT), MARGINS[-1])
+    sure = float(next((each for each in MARGINS if right[margin >= each].mean() >= RIGHT), MARGINS[-1]))
     print(f"{len(examples)} examples, {len(names)} kinds: {right.mean():.1%} found")
     for least in (0.5, 1.0, 1.5, 2.0, 3.0):
         wide = margin >= least

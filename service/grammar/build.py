@@ -99,6 +99,9 @@ def _ids(edge: Edge) -> tuple[str, ...]:
     return edge.sense.value.ids if isinstance(edge.sense.value, Amount) else ()
 
 
+WHOLE = "whole"
+"""The value of words for the whole road ("all over the road"); beside them there is no place on it."""
+
 RAISING, LOWERING = "v.up", "v.down"
 """Concepts of verbs that say which way an amount goes."""
 
@@ -289,6 +292,7 @@ class _Maker:
     def where(self) -> dict[str, Any] | None:
         """The place, of all its parts; parts that contradict each other are no place."""
         where: dict[str, Any] = {}
+        everywhere = any(edge.sense.value == WHOLE for edge in self._filled.of("random"))
         for edge in self._filled.of("place", "side", "nearest"):
             value = edge.sense.value
             where = merge_places([where, value if isinstance(value, dict) else {"side": value}])
@@ -300,6 +304,8 @@ class _Maker:
             if "cells" in where:
                 raise CannotBuild("two distances")
             where["cells"] = edge.sense.value.count
+        if everywhere and where:
+            raise CannotBuild("the whole road, and a place on it")
         return merge_places([where]) or None
 
     def _amount(self) -> int | float:

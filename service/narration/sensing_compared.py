@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Final, get_args
+from typing import Any, get_args
 
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, plain
@@ -19,9 +19,6 @@ from sim.perceive.parameters import SUITES
 from sim.plan import traits_of
 from sim.state import SimState
 from sim.types import Kind
-
-PLAIN: Final = {"weather": "clear", "time_of_day": "day"}
-"""The conditions in which sensors are at their best."""
 
 
 class SensingCompared:
@@ -42,7 +39,7 @@ class SensingCompared:
         """No first: the rules are the same; then what the sensor detects now and at its best."""
         config = state.config
         told = [Part(0, self._say("care", "rule"))]
-        now, best = half_m(config), half_m(replace(config, **PLAIN))  # type: ignore[arg-type]
+        now, best = half_m(config), half_m(at_its_best(config))
         if sensor_named(config.sensor).faithful:
             told.append(Part(0, self._say("care", "perfect")))
         else:
@@ -65,12 +62,15 @@ class SensingCompared:
             return self._say("weathers", "perfect"), {"half_detected_m": None}
         if config.sensor not in SUITES:
             return self._say("weathers", "unknown", sensor=config.sensor), {"half_detected_m": None}
-        conditions: list[tuple[str, str]] = [("weather", each) for each in get_args(Weather)]
-        conditions.append(("time_of_day", "night"))
+        best = at_its_best(config)
+        weathers: tuple[Weather, ...] = get_args(Weather)
         found = {
-            value_of(self._sayings, name, value): half_m(replace(config, **(PLAIN | {name: value}))) or 0.0
-            for name, value in conditions
+            value_of(self._sayings, "weather", each): half_m(replace(best, weather=each)) or 0.0
+            for each in weathers
         }
+        found[value_of(self._sayings, "time_of_day", "night")] = (
+            half_m(replace(best, time_of_day="night")) or 0.0
+        )
         sensor = value_of(self._sayings, "sensor", config.sensor)
         worst = [name for name, metres in found.items() if metres == min(found.values())]
         told = self._say("weathers", "told", sensor=sensor, listed=self._listed(found))
@@ -103,6 +103,11 @@ class SensingCompared:
 
     def _say(self, *keys: str, **parts: Any) -> str:
         return self._sayings.say("sensing_compared", *keys, **parts)
+
+
+def at_its_best(config: Config) -> Config:
+    """The configuration in the conditions in which sensors detect most."""
+    return replace(config, weather="clear", time_of_day="day")
 
 
 def half_m(config: Config) -> float | None:

@@ -56,9 +56,11 @@ FAR: Final = np.int32(1 << 29)
 
 
 @compiled
-def make_scratch(rows, columns, most_ticks, buffer):
-    """Room for decisions by cost of up to so many ticks, as `totals_of_way` takes it."""
-    words = -(-rows // (64 // columns))
+def make_scratch(words, rows, columns, most_ticks, buffer):
+    """Room for decisions by cost of up to so many ticks, as `totals_of_way` takes it.
+
+    `words`: those of a board, which are fewer than those of the road where only what is near matters.
+    """
     return (
         np.empty((BOARDS, words), np.uint64),
         np.empty((most_ticks + 3, FIELDS, words), np.uint64),
@@ -211,7 +213,8 @@ def totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, lim
 @compiled
 def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, right_edge, count, moves, costs):
     """For every lane the move of least cost to the goal and that cost (−1: no way)."""
-    scratch = make_scratch(rows, columns, max_ticks(rows), charges[:, BUFFER].max())
+    words = -(-rows // (64 // columns))
+    scratch = make_scratch(words, rows, columns, max_ticks(rows), charges[:, BUFFER].max())
     now, layers = scratch[0], scratch[1]
     size = columns, left_edge, right_edge
     for lane in range(count):

@@ -49,7 +49,7 @@ def cost_scratch(rows, columns, max_ticks, weights):
     left_edge = _ZERO
     for row in range(per_word):
         left_edge |= _ONE << np.uint64(row * columns)
-    scratch = make_scratch(rows, columns, max_ticks, weights[BUFFER])
+    scratch = make_scratch(-(-rows // per_word), rows, columns, max_ticks, weights[BUFFER])
     scratch[0][:] = _ZERO
     return scratch, (columns, left_edge, left_edge << np.uint64(columns - 1))
 

@@ -118,7 +118,16 @@ def test_umlauts_may_be_written_out(german: Language) -> None:
         parsed = german.parse(say)
         if say.translate(UMLAUTS) == say or "Stoßzeit" in say or getattr(parsed, "corrections", ()):
             continue
-        assert meaning(german, say.translate(UMLAUTS)) == meaning(german, say), say
+        assert written_out(meaning(german, say.translate(UMLAUTS))) == written_out(meaning(german, say)), say
+
+
+def written_out(value: Any) -> Any:
+    """The same with its umlauts written out: a given name is kept as it was written."""
+    if isinstance(value, dict):
+        return {key: written_out(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [written_out(each) for each in value]
+    return value.translate(UMLAUTS) if isinstance(value, str) else value
 
 
 def test_no_phrase_holds_a_word_that_is_always_written_out(german: Language) -> None:
