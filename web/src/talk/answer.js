@@ -89,7 +89,11 @@ function watchButton(tick, actions, page) {
 
 /** @param {Option[]} alternatives @param {number | null} tick @param {Page} page */
 function alternativesTemplate(alternatives, tick, page) {
-  return html`<details class="alternatives">
+  const seen = (/** @type {Event} */ { currentTarget }) => {
+    const { open, lastElementChild } = /** @type {HTMLDetailsElement} */ (currentTarget);
+    if (open) lastElementChild?.scrollIntoView({ block: "nearest" });
+  };
+  return html`<details class="alternatives" @toggle=${seen}>
     <summary>${t("answer.others", { count: alternatives.length })}</summary>
     <ul>${alternatives.map((option) => alternativeTemplate(option, tick, page))}</ul>
   </details>`;
