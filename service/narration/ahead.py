@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from dataclasses import replace
+from typing import Any, Final
 
 from service.contract.encode.ahead import (
     arrival_json,
@@ -21,6 +22,7 @@ from service.narration.futures_told import counted_told, end_told, share_told, y
 from service.narration.naming import Naming
 from service.narration.repair import Repairs
 from service.narration.sayings import Sayings
+from service.narration.asked_moment import where_stuck
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.ahead import Arrival, StuckAhead, arrival, crash_ahead, stuck_ahead
@@ -30,6 +32,10 @@ from sim.explain.safe_move import SafeMove, safe_move
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Mode, Move, Outcome
+
+
+_LEADS_ON: Final = ("way", "arrive_how")
+"""What is asked of how it could go on."""
 
 
 class Outlooks:
@@ -52,8 +58,15 @@ class Outlooks:
         }
 
     def answer(self, asked: Asked) -> Json:
-        """See `Answerer.answer`. Where the episode has ended, that is the answer."""
+        """See `Answerer.answer`. Where the episode has ended, that is the answer.
+
+        What would have led on, where it is stuck, is told of the tick at which it got no further.
+        """
         ask, state = asked.ask, asked.timeline.state
+        if ask.what in _LEADS_ON and (earlier := where_stuck(asked.timeline)) is not None:
+            answer = self.answer(replace(asked, timeline=earlier))
+            text = self._sayings.say("past", "viewed", "then", tick=earlier.tick, text=answer["text"])
+            return answer | {"text": text}
         try:
             text, facts = self._ways[str(ask.what)](asked)
         except QuestionError as error:

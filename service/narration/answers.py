@@ -37,6 +37,7 @@ from service.narration.soon import Soon
 from service.narration.status import Help, Status
 from service.narration.stretches import Stretches
 from service.narration.talk import OpenQuestion, RecentChanges
+from service.narration.asked_moment import at_its_moment
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.narration.world import Worlds
@@ -114,6 +115,18 @@ class Answers:
         """The `Answer` of the interface."""
         if isinstance(asked, Advised):
             return self._advices.answer(asked)
+        named = asked.ask.tick
+        asked, preface = at_its_moment(asked)
+        answer = self._answer(asked)
+        tick = asked.timeline.tick if asked.ask.tick is None else asked.ask.tick
+        if asked.ask.tick != named:
+            answer["tick"] = tick
+        if preface is not None:
+            answer["text"] = self._sayings.say("past", "viewed", preface, tick=tick, text=answer["text"])
+        return answer
+
+    def _answer(self, asked: Asked) -> Json:
+        """The answer to a question of the present, or of the tick that it names."""
         asked = _at_its_tick(asked)
         if asked.ask.what == "detour":
             try:
