@@ -187,9 +187,7 @@ class Sayings:
         """A cell as people call it: lanes count from 1."""
         return self.say("words", "at_cell", lane=cell[0] + 1, row=cell[1])
 
-    def met(
-        self, option: Option, tense: str, naming: Names, *, again: frozenset[str] = frozenset()
-    ) -> str:
+    def met(self, option: Option, tense: str, naming: Names, *, again: frozenset[str] = frozenset()) -> str:
         """What a move would meet, `now` or `then`; of the things `again` other moves are told to meet them."""
         return self.in_the_way(option.reason, option.move, option.causes, tense, naming, again=again)
 
