@@ -35,10 +35,13 @@ class AsyncSession(AsyncInNotebook):
         return await self._client._send(endpoints.read_session(self.id))
 
     async def say(
-        self, text: str, *, dry_run: bool = False, language: str | None = None
+        self, text: str, *, dry_run: bool = False, language: str | None = None, at_tick: int | None = None
     ) -> answers.CommandResult:
-        """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`."""
-        return await self._client._send(endpoints.run_command(self.id, text, dry_run, language))
+        """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`.
+
+        `at_tick`: the past tick that is looked at, of which questions are asked.
+        """
+        return await self._client._send(endpoints.run_command(self.id, text, dry_run, language, at_tick))
 
     async def act(self, *actions: Mapping[str, Any], dry_run: bool = False) -> answers.CommandResult:
         """Do typed actions, no language involved: `act({"do": "pause"})`."""
@@ -48,9 +51,11 @@ class AsyncSession(AsyncInNotebook):
         """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""
         return await self._client._send(endpoints.patch_config(self.id, parts))
 
-    async def ask(self, question: str, *, language: str | None = None) -> answers.Answer:
-        """Ask something; nothing is changed."""
-        return await self._client._send(endpoints.ask_question(self.id, question, language))
+    async def ask(
+        self, question: str, *, language: str | None = None, at_tick: int | None = None
+    ) -> answers.Answer:
+        """Ask something, of a past tick where one is named; nothing is changed."""
+        return await self._client._send(endpoints.ask_question(self.id, question, language, at_tick))
 
     async def pause(self) -> answers.CommandResult:
         """The clock stands still."""

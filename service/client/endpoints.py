@@ -126,9 +126,11 @@ def delete_session(session: str) -> Call[None]:
     return Call("DELETE", _session_path(session), lambda _: None, key=new_key())
 
 
-def run_command(session: str, text: str, dry_run: bool, language: str | None) -> Call[answers.CommandResult]:
+def run_command(
+    session: str, text: str, dry_run: bool, language: str | None, at_tick: int | None
+) -> Call[answers.CommandResult]:
     """Says something to a session."""
-    body = _without_none(text=text, dry_run=dry_run, language=language)
+    body = _without_none(text=text, dry_run=dry_run, language=language, at_tick=at_tick)
     path = _session_path(session, "/commands")
     return Call("POST", path, _json(answers.CommandResult), body, said="text", key=new_key())
 
@@ -146,9 +148,11 @@ def patch_config(session: str, parts: Json) -> Call[answers.ConfigChanged]:
     )
 
 
-def ask_question(session: str, question: str, language: str | None) -> Call[answers.Answer]:
+def ask_question(
+    session: str, question: str, language: str | None, at_tick: int | None
+) -> Call[answers.Answer]:
     """Asks a question."""
-    body = _without_none(question=question, language=language)
+    body = _without_none(question=question, language=language, at_tick=at_tick)
     return Call("POST", _session_path(session, "/ask"), _json(answers.Answer), body, said="question")
 
 

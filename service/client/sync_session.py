@@ -35,9 +35,14 @@ class Session(InNotebook):
         """The session as it stands."""
         return self._client._send(endpoints.read_session(self.id))
 
-    def say(self, text: str, *, dry_run: bool = False, language: str | None = None) -> answers.CommandResult:
-        """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`."""
-        return self._client._send(endpoints.run_command(self.id, text, dry_run, language))
+    def say(
+        self, text: str, *, dry_run: bool = False, language: str | None = None, at_tick: int | None = None
+    ) -> answers.CommandResult:
+        """Say something; done as a whole or not at all. Raises `NotUnderstood`, `Ambiguous`.
+
+        `at_tick`: the past tick that is looked at, of which questions are asked.
+        """
+        return self._client._send(endpoints.run_command(self.id, text, dry_run, language, at_tick))
 
     def act(self, *actions: Mapping[str, Any], dry_run: bool = False) -> answers.CommandResult:
         """Do typed actions, no language involved: `act({"do": "pause"})`."""
@@ -47,9 +52,11 @@ class Session(InNotebook):
         """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""
         return self._client._send(endpoints.patch_config(self.id, parts))
 
-    def ask(self, question: str, *, language: str | None = None) -> answers.Answer:
-        """Ask something; nothing is changed."""
-        return self._client._send(endpoints.ask_question(self.id, question, language))
+    def ask(
+        self, question: str, *, language: str | None = None, at_tick: int | None = None
+    ) -> answers.Answer:
+        """Ask something, of a past tick where one is named; nothing is changed."""
+        return self._client._send(endpoints.ask_question(self.id, question, language, at_tick))
 
     def pause(self) -> answers.CommandResult:
         """The clock stands still."""

@@ -35,6 +35,11 @@ Strictly = Annotated[Value, BeforeValidator(_strictly)]
 
 _LANGUAGE = "In which language; `GET /language` names them. Default: the session's."
 
+AT_TICK = (
+    "The past tick that is looked at: a question that names no tick of its own is asked of it, and the "
+    "answer says which moment it is about. Orders are done now all the same. Default: now."
+)
+
 MAX_ACTIONS = 100
 """Actions that may be sent at once."""
 
@@ -196,6 +201,7 @@ class Said(Sent):
     text: StorableText = Field(description="At most 500 characters, unless the service is set otherwise.")
     dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
     language: str | None = Field(None, max_length=16, description=_LANGUAGE)
+    at_tick: Tick | None = Field(None, description=AT_TICK)
 
 
 class TypedActions(Sent):
@@ -203,6 +209,7 @@ class TypedActions(Sent):
 
     actions: Strictly[list[Action]] = Field(min_length=1, max_length=MAX_ACTIONS)
     dry_run: bool = Field(False, description="Say what would be done, and do nothing.")
+    at_tick: Tick | None = Field(None, description=AT_TICK)
 
 
 class StepTicks(Sent):
@@ -216,6 +223,7 @@ class Question(Sent):
 
     question: StorableText
     language: str | None = Field(None, max_length=16, description=_LANGUAGE)
+    at_tick: Tick | None = Field(None, description=AT_TICK)
 
 
 class Text(Sent):

@@ -7,7 +7,8 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Discriminator, Field
 
 from service.actions import Action
-from service.contract.requests import MAX_ACTIONS, Sent, Strictly
+from service.contract.model import Tick
+from service.contract.requests import AT_TICK, MAX_ACTIONS, Sent, Strictly
 from service.contract.text import StorableText
 
 Id = Annotated[str, Field(max_length=100, description="Chosen by the client, given back with the answer.")]
@@ -30,6 +31,7 @@ class Command(Sent):
     text: StorableText
     dry_run: bool = False
     language: str | None = Field(None, max_length=16)
+    at_tick: Tick | None = Field(None, description=AT_TICK)
     key: Key = None
 
 
@@ -40,6 +42,7 @@ class Actions(Sent):
     id: Id
     actions: Strictly[list[Action]] = Field(min_length=1, max_length=MAX_ACTIONS)
     dry_run: bool = False
+    at_tick: Tick | None = Field(None, description=AT_TICK)
     key: Key = None
 
 

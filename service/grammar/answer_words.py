@@ -101,6 +101,9 @@ TOO = "too"
 INSTEAD = "instead"
 """Concept of what makes the last request another one: "in lane 5 instead"."""
 
+THIS_MOMENT = "this_moment"
+"""Concept of words for the moment that is looked at: "here", "at this tick"."""
+
 YES, NO, NEITHER, DROP, LAST, WHICH = "yes", "no", "neither", "drop", "last", "which"
 
 

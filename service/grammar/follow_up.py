@@ -25,6 +25,7 @@ from service.grammar.sentences import Unsayable
 from service.grammar.setting_talk import grown_too, read_of_setting, setting_of
 from service.grammar.short_talk import pick_going_on, read_short, without_marks
 from service.grammar.thing_talk import kinds_of, read_asked, read_of_things
+from service.grammar.this_moment import read_of_this_moment
 from service.grammar.tokens import normalise, tokenise
 from service.grammar.topic import Topic
 from service.grammar.unclear_it import ask_whether, ask_which_it
@@ -42,6 +43,8 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     "and left?" asks the same of the left.
     """
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
+    if (alone or topic.looks_back) and (of_moment := read_of_this_moment(language, text, topic)):
+        return of_moment
     if (grown := grown_too(language, text, topic, parsed)) is not None:
         return grown
     if alone and (listed := choose_listed(language, text, topic)) is not None:

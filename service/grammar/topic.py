@@ -155,6 +155,8 @@ class Topic:
     """the kind of thing that the pending question is about: "remove five" after "too many cars" """
     tick: int | None = None
     """the tick that the last question or its answer named: "since then" """
+    looks_back: bool = False
+    """whether a past tick is looked at while it is said: "here" is that"""
     others: int = 0
     """how many more of that kind are on the road beside the things spoken of"""
     removed: bool = False

@@ -70,6 +70,8 @@ class ParsedCommand:
     supposes: str | None = None
     preface: str = ""
     """what the reply begins with: as what the text was read, where that is not plain"""
+    at_tick: int | None = None
+    """the past tick that is looked at while it is said"""
 
     @property
     def utterance(self) -> Utterance:
@@ -80,6 +82,7 @@ class ParsedCommand:
             supposes=self.supposes,
             preface=self.preface,
             language=self.language,
+            at_tick=self.at_tick,
         )
 
 
@@ -110,12 +113,15 @@ class Interpreter:
         self._turn = TurnBudget()
         self._sentences = SentenceCache()
 
-    def topic(self, session: Session | None, code: str = DEFAULT_LANGUAGE) -> Topic:
-        """What a sentence may refer to: the session's conversation, and aliases."""
+    def topic(
+        self, session: Session | None, code: str = DEFAULT_LANGUAGE, at_tick: int | None = None
+    ) -> Topic:
+        """What a sentence may refer to: the session's conversation, the tick looked at, and aliases."""
         phrases = self.aliases.phrases(code)
         if session is None:
             return Topic(phrases=phrases)
         topic = session.conversation.topic(session.run.world, phrases, session.undo_stack.bookmarks)
+        topic = topic if at_tick is None else replace(topic, looks_back=at_tick < session.timeline.tick)
         return topic if session.pending is None else replace(topic, asked_kind=session.pending.kind)
 
     def sentence_for(self, config: Config, code: str = DEFAULT_LANGUAGE) -> str | None:
@@ -140,8 +146,8 @@ class Interpreter:
                 return Preview("asks", question.actions)
         return preview(parse, session, code)
 
-    async def _read(self, text: str, session: Session | None, code: str) -> Parse:
-        language, topic = self.languages[code], self.topic(session, code)
+    async def _read(self, text: str, session: Session | None, code: str, at_tick: int | None = None) -> Parse:
+        language, topic = self.languages[code], self.topic(session, code, at_tick)
         if len(text) <= MAX_INLINE_CHARS:
             async with self._turn.piece():
                 parsed = self._parse(language, text, topic)
@@ -161,14 +167,16 @@ class Interpreter:
         field: str = "text",
         *,
         asks: bool = False,
+        at_tick: int | None = None,
     ) -> ParsedCommand:
         """What a sentence means, in a language (by default the session's).
 
         Raises `Invalid`, `NotUnderstood` or `Ambiguous`, naming `field`. `asks`: a question becomes the
-        session's pending one, which the next sentence may answer.
+        session's pending one, which the next sentence may answer. `at_tick`: the tick that is looked at while
+        it is said, which has come.
         """
         try:
-            return await self._interpret(text, session, code, field)
+            return replace(await self._interpret(text, session, code, field, at_tick), at_tick=at_tick)
         except Asked as problem:
             if asks and session is not None:
                 session.pending = problem.question
@@ -176,7 +184,7 @@ class Interpreter:
             raise
 
     async def _interpret(
-        self, text: str, session: Session | None, code: str | None, field: str
+        self, text: str, session: Session | None, code: str | None, field: str, at_tick: int | None
     ) -> ParsedCommand:
         code = code or language_of(session)
         if len(text) > self._most_chars:
@@ -184,7 +192,7 @@ class Interpreter:
             message = words.said("too_many_characters", length=len(text), most=self._most_chars)
             raise Invalid(words.said("too_long"), errors=[FieldProblem(field, message)])
         with part("parse"):
-            parse = await self._read(text, session, code)
+            parse = await self._read(text, session, code, at_tick)
         match parse:
             case Understood():
                 return ParsedCommand(
@@ -193,11 +201,10 @@ class Interpreter:
             case AmbiguousParse():
                 raise asked_by(parse, code, None if session is None else session.pending)
             case Refused():
-                question = (
-                    await self._question(text, session, code) if parse.reason == "not_understood" else None
-                )
-                if question is not None:
-                    return question
+                if parse.reason == "not_understood":
+                    question = await self._question(text, session, code, at_tick)
+                    if question is not None:
+                        return question
                 refusal = await self._refusal(parse, session, field, code)
                 elsewhere = session is not None and parse.reason == "not_understood"
                 if elsewhere and await self._questions.is_of_something_else(text, code):
@@ -206,11 +213,15 @@ class Interpreter:
                     raise refusal
                 return await self._ask_model(self._model, text, refusal, code)
 
-    async def _question(self, text: str, session: Session | None, code: str) -> ParsedCommand | None:
+    async def _question(
+        self, text: str, session: Session | None, code: str, at_tick: int | None = None
+    ) -> ParsedCommand | None:
         """What a refused text asks of a session if it is a question nevertheless, or None. Raises `Asked`."""
         if session is None:
             return None
-        question = await self._questions.read(text, self.topic(session, code), code, situations(session.run))
+        run = session.run if at_tick is None else session.timeline.at(at_tick)
+        topic = self.topic(session, code, at_tick)
+        question = await self._questions.read(text, topic, code, situations(run))
         if question is None:
             return None
         return ParsedCommand(
@@ -223,10 +234,10 @@ class Interpreter:
         )
 
     async def interpret_question(
-        self, text: str, session: Session | None, code: str | None = None
+        self, text: str, session: Session | None, code: str | None = None, at_tick: int | None = None
     ) -> ParsedCommand:
         """The same for a question. Raises also `NotAQuestion` for anything else."""
-        found = await self.interpret(text, session, code, "question")
+        found = await self.interpret(text, session, code, "question", at_tick=at_tick)
         if not all(traits_of(action).is_question for action in found.actions):
             raise NotAQuestion(refusals(found.language).said("no_question"))
         return found

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from dataclasses import replace
+from typing import Any, Final
 
 from service.contract.encode.ahead import (
     arrival_json,
@@ -14,6 +15,7 @@ from service.contract.encode.ahead import (
 )
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
+from service.narration.asked_moment import where_stuck
 from service.narration.assurance import assurance_told
 from service.narration.charges import in_seconds
 from service.narration.crash_ahead import CrashesAhead
@@ -30,6 +32,9 @@ from sim.explain.safe_move import SafeMove, safe_move
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Mode, Move, Outcome
+
+_LEADS_ON: Final = ("way", "arrive_how")
+"""What is asked of how it could go on."""
 
 
 class Outlooks:
@@ -52,8 +57,15 @@ class Outlooks:
         }
 
     def answer(self, asked: Asked) -> Json:
-        """See `Answerer.answer`. Where the episode has ended, that is the answer."""
+        """See `Answerer.answer`. Where the episode has ended, that is the answer.
+
+        What would have led on, where it is stuck, is told of the tick at which it got no further.
+        """
         ask, state = asked.ask, asked.timeline.state
+        if ask.what in _LEADS_ON and (earlier := where_stuck(asked.timeline)) is not None:
+            answer = self.answer(replace(asked, timeline=earlier))
+            text = self._sayings.say("past", "viewed", "then", tick=earlier.tick, text=answer["text"])
+            return answer | {"text": text}
         try:
             text, facts = self._ways[str(ask.what)](asked)
         except QuestionError as error:

@@ -9,6 +9,7 @@ from service.actions import Ask
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
+from service.narration.asked_moment import at_its_moment
 from service.narration.blame import Blames
 from service.narration.choices import Choices
 from service.narration.confidence import Confidences
@@ -114,6 +115,18 @@ class Answers:
         """The `Answer` of the interface."""
         if isinstance(asked, Advised):
             return self._advices.answer(asked)
+        named = asked.ask.tick
+        asked, preface = at_its_moment(asked)
+        answer = self._answer(asked)
+        tick = asked.timeline.tick if asked.ask.tick is None else asked.ask.tick
+        if asked.ask.tick != named:
+            answer["tick"] = tick
+        if preface is not None:
+            answer["text"] = self._sayings.say("past", "viewed", preface, tick=tick, text=answer["text"])
+        return answer
+
+    def _answer(self, asked: Asked) -> Json:
+        """The answer to a question of the present, or of the tick that it names."""
         asked = _at_its_tick(asked)
         if asked.ask.what == "detour":
             try:

@@ -70,6 +70,8 @@ class Asked:
     """the conversation as it was, for questions about it"""
     length: str | None = None
     """`shorter` or `longer`, where an answer is wanted so"""
+    viewed: int | None = None
+    """the past tick that was looked at when it was asked"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,10 +42,12 @@ def make_outcome(
     `narrator`: the session's; the reply is in the language of the utterance, the log in that of the session.
     """
     own = narrator if utterance.language is None else narrator.in_language(utterance.language)
-    if utterance.supposes is not None:
-        facts = tuple(
-            replace(fact, supposes=utterance.supposes) if isinstance(fact, Asked) else fact for fact in facts
-        )
+    facts = tuple(
+        replace(fact, supposes=utterance.supposes, viewed=utterance.at_tick)
+        if isinstance(fact, Asked)
+        else fact
+        for fact in facts
+    )
     answers, said = _narrate(own, facts)
     as_replayed = tuple(spread_facts(facts))
     alike = own is narrator and not any(isinstance(fact, Resolved | JobAsked | JobTold) for fact in facts)

@@ -24,6 +24,8 @@ class Utterance:
     """what its reply begins with: as what it was read"""
     language: str | None = None
     """the language in which it is answered or refused; None is the session's"""
+    at_tick: int | None = None
+    """the past tick that is looked at while it is said: its questions are about that"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -130,3 +130,35 @@ def test_where_others_watch_only_ones_own_view_stays_at_the_end(
     first.page.locator("[data-ending=next]").click()
     expect(first.page.locator("#connection")).to_contain_text("Live")
     first.script.act({"do": "pause"})
+
+
+def test_a_stuck_drive_says_what_holds_it_and_what_would_lead_on(
+    visit: Visit, service: ServiceProcess
+) -> None:
+    visitor = visit(f"/#/s/{service.session(**SHORT)}")
+    visitor.say("put a barrier in every lane in row 4")
+    while visitor.script.state()["status"] == "running":
+        visitor.script.act({"do": "step", "ticks": 1})
+    expect(visitor.page.locator(".verdict-text")).to_contain_text("Stuck")
+    visitor.page.locator("[data-ending=why]").click()
+    expect(visitor.last_exchange().locator(".reply").first).to_contain_text("no way led on")
+    visitor.page.locator("[data-ending=leads_on]").click()
+    expect(visitor.last_exchange().locator(".reply").first).to_contain_text("Without the barrier")
+
+
+def test_a_drive_that_went_well_is_driven_anew_by_hand_and_its_card_can_be_made_small(
+    visit: Visit, service: ServiceProcess
+) -> None:
+    visitor = visit(f"/#/s/{service.session(**SHORT)}")
+    while visitor.script.state()["status"] == "running":
+        visitor.script.act({"do": "step", "ticks": 1})
+    card = visitor.page.locator(".verdict")
+    expect(card).to_contain_text("Next road")
+    visitor.page.get_by_role("button", name="Make this card small").click()
+    expect(visitor.page.get_by_role("button", name="Next road")).to_be_hidden()
+    expect(card).to_contain_text("Success")
+    visitor.page.get_by_role("button", name="Show this card").click()
+    visitor.page.locator("[data-ending=drive]").click()
+    visitor.shows(0)
+    state = visitor.script.state()
+    assert (state["tick"], state["mode"], state["status"], state["paused"]) == (0, "manual", "running", True)

@@ -26,6 +26,7 @@ def test_who_says_quiz_me_predicts_reads_and_gets_scores(visit: Visit) -> None:
             expect(dialog.get_by_role("radio")).to_have_count(0)
             expect(dialog).to_contain_text("What I did")
         else:
+            expect(dialog).to_contain_text("told at the end")
             expect(dialog.get_by_role("radio", checked=True)).to_have_count(0)
             dialog.get_by_label("straight ahead").check()
             dialog.get_by_label("nothing is in my way").check()
@@ -33,6 +34,9 @@ def test_who_says_quiz_me_predicts_reads_and_gets_scores(visit: Visit) -> None:
     dialog.get_by_role("group", name=re.compile("wary")).get_by_label("2").check()
     go_on.click()
     expect(dialog).to_contain_text(f"of {ROADS} before the explanations")
+    expect(dialog.locator(".quiz-given li")).to_have_count(2 * ROADS)
+    wrong = dialog.locator(".quiz-given li[data-right=false]")
+    expect(wrong.first).to_contain_text("It was:")
     with visitor.page.expect_download() as saved:
         dialog.get_by_role("button", name="Save the result").click()
     result = json.loads(Path(saved.value.path()).read_text(encoding="utf-8"))

@@ -20,6 +20,15 @@ async () => {
 """
 
 
+def log_lines(run: Visitor) -> list[tuple[int, bool]]:
+    """The tick of each line of the log, and whether it is dimmed."""
+    lines = run.page.locator(".log-line").all()
+    return [
+        (int(line.get_attribute("data-tick") or 0), line.get_attribute("data-later") is not None)
+        for line in lines
+    ]
+
+
 def test_dragging_shows_the_past_as_it_was(run: Visitor) -> None:
     box = slider(run).bounding_box()
     assert box is not None
@@ -67,10 +76,45 @@ def test_the_line_is_a_slider_for_the_keyboard(run: Visitor) -> None:
 
 def test_the_decision_of_the_tick_is_told_everywhere(run: Visitor) -> None:
     look(run, 44)
-    path = f"{run.url}/api/v1/sessions/{run.session}/decisions/43"
-    narration = run.page.request.get(path).json()["narration"]
-    expect(run.page.locator(".caption-text")).to_have_text(narration)
+    path = f"{run.url}/api/v1/sessions/{run.session}/decisions/44"
+    decision = run.page.request.get(path).json()
+    expect(run.page.locator(".caption-text")).to_have_text(decision["narration"])
+    expect(run.page.locator("#plan-when")).to_have_text("next, at tick 44")
+    expect(run.page.locator(".way[data-standing=taken]")).to_contain_text(
+        decision["move"].replace("_", " ").capitalize()
+    )
+    blocked = sum(option["verdict"] != "free" for option in decision["options"])
+    expect(run.page.locator(".chart-told").first).to_have_text(f"{blocked} of 6 blocked")
+    dimmed = dict(log_lines(run))
+    assert dimmed == {tick: tick > 44 for tick in dimmed}
+    assert set(dimmed.values()) == {False, True}
     expect(bar(run)).to_contain_text("Tick 44 of")
+
+
+def test_questions_are_asked_of_the_tick_that_is_looked_at_and_orders_are_done_now(run: Visitor) -> None:
+    look(run, 44)
+    why = run.say("why didn't you go right here?")
+    expect(why.locator(".reply").first).to_contain_text("At tick 44")
+    expect(run.say("what will you do next?").locator(".reply").first).to_contain_text("At tick 44: Next I")
+    expect(run.say("what did I change?").locator(".reply").last).to_contain_text(f"Now, at tick {TICKS}:")
+    expect(bar(run)).to_contain_text("Tick 44 of")
+    run.say("add a pothole")
+    expect(bar(run)).to_be_hidden()  # what was changed is to be seen
+    assert run.script.state()["tick"] == TICKS
+
+
+def test_a_leap_back_marks_the_lines_it_took_and_tells_the_move_that_led_there(run: Visitor) -> None:
+    path = f"{run.url}/api/v1/sessions/{run.session}/decisions/49"
+    narration = run.page.request.get(path).json()["narration"]
+    run.say("go back to tick 50")
+    expect(figure(run)).to_have_text("50")
+    expect(run.page.locator(".caption-text")).to_have_text(narration)
+    dimmed = dict(log_lines(run))
+    assert dimmed == {tick: tick > 50 for tick in dimmed}
+    assert True in dimmed.values()
+    run.say("undo")
+    expect(figure(run)).to_have_text(str(TICKS))
+    expect(run.page.locator(".log-line[data-later]")).to_have_count(0)
 
 
 def test_arrows_walk_back_and_forth_and_play_goes_on_by_itself(run: Visitor) -> None:

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { LOG_LINES, logChange, logEvents, logTick } from "../../web/src/talk/journal.js";
+import { LOG_LINES, logChange, logEvents, logJump, logTick } from "../../web/src/talk/journal.js";
 import { logEvent, tick, wireState } from "./fakes.mjs";
 
 const at = (number, narration) =>
@@ -98,4 +98,15 @@ test("the log does not grow for ever", () => {
   for (let number = 0; number < LOG_LINES + 50; number++) log = logTick(log, at(number, `say ${number}`));
   assert.equal(log.length, LOG_LINES);
   assert.equal(log.at(-1).text, `say ${LOG_LINES + 49}`);
+});
+
+test("what a leap back has taken is marked, and counts again when that is undone", () => {
+  let log = [];
+  for (const number of [3, 4, 5, 6]) log = logTick(log, at(number, `say ${number}`));
+  const driven = { log, world: { tick: 7 }, steps: { done: [1, 2], gone: [] } };
+  const back = logJump(driven, { tick: 5, undo: 3 });
+  assert.deepEqual(back.map(({ gone }) => gone ?? false), [false, false, true, true], "the decision of tick 5 is not taken any more");
+  assert.equal(logJump({ ...driven, log: back, world: { tick: 5 } }, { tick: 40, undo: 3 }), back, "a long step brings nothing back");
+  const again = logJump({ ...driven, log: back, world: { tick: 5 } }, { tick: 7, undo: 1 });
+  assert.deepEqual(again.map(({ gone }) => gone ?? false), [false, false, false, false]);
 });

@@ -18,7 +18,7 @@ class SlowService {
   http = (path) => {
     const from = Number(/from=(\d+)/.exec(path)[1]);
     const limit = Number(/limit=(\d+)/.exec(path)[1]);
-    this.asked.push(limit === 1 ? `${from}` : from);
+    this.asked.push(limit === 2 ? `${from}` : from);
     const items = [];
     for (let tick = from; tick < Math.min(from + limit, NOW + 1); tick += 1) {
       items.push({ state: wireState({ tick }), decision: tick === 0 ? null : { tick: tick - 1, move: "forward", narration: `N${tick}`, options: [{ reason: "free", causes: ["c"] }] } });
@@ -47,11 +47,23 @@ function stage(now = NOW) {
   return { service, clock, seen, looking, present, store };
 }
 
-test("a moment is shown as a present would be: its decision with reason and causes", () => {
-  const past = pastOf({ state: wireState({ tick: 7 }), decision: { tick: 6, move: "stay", narration: "Waits.", options: [{ reason: "pothole", causes: ["pothole-1"] }] } });
+test("a past tick is shown with what was decided there, with reason and causes", () => {
+  const decision = { tick: 7, move: "stay", narration: "Waits.", options: [{ reason: "pothole", causes: ["pothole-1"] }] };
+  const past = pastOf({ state: wireState({ tick: 7 }) }, { decision });
   assert.equal(past.world.tick, 7);
-  assert.deepEqual([past.decision.reason, past.decision.causes, past.narration], ["pothole", ["pothole-1"], "Waits."]);
-  assert.equal(pastOf({ state: wireState({ tick: 0 }), decision: null }).decision, null);
+  assert.deepEqual([past.decision.tick, past.decision.reason, past.decision.causes, past.narration], [7, "pothole", ["pothole-1"], "Waits."]);
+  assert.equal(pastOf({ state: wireState({ tick: 0 }) }).decision, null);
+});
+
+test("a tick seen alone or in a page has the decision of its own tick", async () => {
+  const { service, looking, store } = stage();
+  for (const tick of [40, 41]) {
+    void looking.at(tick);
+    await service.answer();
+  }
+  assert.equal(store.state().past.world.tick, 41);
+  assert.equal(store.state().past.decision.tick, 41);
+  assert.equal(store.state().past.narration, "N42");
 });
 
 test("the latest wish wins, and a drag leaves no queue of questions behind", async () => {

@@ -135,3 +135,16 @@ test("nothing is sent before it is open or after it is closed", async () => {
   assert.equal(parts.connection.send({ type: "ping" }), false);
   assert.equal(parts.clock.waiting, 0);
 });
+
+test("while an answer is awaited silence is borne longer: a ping is answered in turn", async () => {
+  const parts = connected();
+  await live(parts);
+  parts.connection.send({ type: "command", id: "1", text: "why?" });
+  parts.clock.pass(8_000);
+  parts.clock.pass(60_000);
+  assert.equal(parts.phases.at(-1).phase, "live");
+  parts.sockets[0].receive({ type: "problem", id: "1", problem: { detail: "No." } });
+  parts.clock.pass(8_000);
+  parts.clock.pass(15_000);
+  assert.equal(parts.phases.at(-1).phase, "lost", "nothing is awaited any more");
+});

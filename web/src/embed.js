@@ -81,11 +81,11 @@ class Embed {
     const past = cache.known(wanted) ?? (await cache.at(wanted));
     cache.ahead(Math.min(this.last, wanted + 12));
     if (wanted !== this.at) return;
-    const next = /** @type {State} */ ({ ...INITIAL, ...past, world: { ...past.world, paused: !this.playing } });
+    const next = /** @type {State} */ ({ ...INITIAL, ...past, past, world: { ...past.world, paused: !this.playing } });
     this.road.update?.(next, this.shown);
     this.shown = next;
     this.loop.wake();
-    this.#tell(past.narration ?? "");
+    this.#tell(past.narration ?? (past.world.status === "running" ? "" : t(`verdict.${past.world.status}`)));
   }
 
   /** @param {boolean} on */

@@ -21,6 +21,7 @@ import { keepAddress } from "./timeline/momentAddress.js";
 import { TimelineLoader } from "./timeline/timelineLoader.js";
 import { TimeTravel } from "./timeline/timeTravel.js";
 import { byId, fillTexts } from "./ui/dom.js";
+import { knowLatestDecision } from "./why/latestDecision.js";
 import { RegretLoader } from "./why/regretLoader.js";
 
 fillTexts(document);
@@ -29,6 +30,7 @@ const connector = new Connector(store);
 new RegretLoader(store);
 keepTalk(store, { storage: browserStorage() });
 loadPastLines(store);
+knowLatestDecision(store);
 new TimelineLoader(store, { storage: browserStorage() });
 const timeTravel = new TimeTravel(store);
 keepAddress(store, timeTravel);

@@ -40,6 +40,7 @@ from service.http.realtime.hello import hello
 from service.http.realtime.once import run_once
 from service.http.realtime.websocket_auth import authenticate
 from service.http.session_json import PREFIX
+from service.http.ticks import check_tick
 from service.http.validation import field_problems, invalid
 from service.interpreter.owners import ask_as
 from service.problems import Internal, Invalid, Malformed, ProblemError
@@ -246,13 +247,14 @@ async def _run(context: Context, session: Session, message: Command | Actions) -
         preconditions: Callable[[Callable[[Outcome], dict[str, Any]]], Preconditions],
     ) -> dict[str, Any]:
         heard = None
+        check_tick(message.at_tick, session.timeline.tick, "at_tick")
         if isinstance(message, Command):
             heard = await context.interpreter.interpret(
-                message.text, session, message.language, asks=not message.dry_run
+                message.text, session, message.language, asks=not message.dry_run, at_tick=message.at_tick
             )
             utterance = heard.utterance
         else:
-            utterance = Utterance(actions=tuple(message.actions))
+            utterance = Utterance(actions=tuple(message.actions), at_tick=message.at_tick)
 
         def told(outcome: Outcome) -> dict[str, Any]:
             return result_json(outcome, heard, message.dry_run)

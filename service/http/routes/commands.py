@@ -17,6 +17,7 @@ from service.http.outcome_json import result_json
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.route_policy import policy
+from service.http.ticks import check_tick
 from service.problems import (
     Ambiguous,
     ContentTooLarge,
@@ -68,7 +69,10 @@ async def run_command(
 
     A word that is not understood refuses it all, and says which.
     """
-    heard = await here.interpreter.interpret(body.text, session, body.language, asks=not body.dry_run)
+    check_tick(body.at_tick, session.timeline.tick, "at_tick")
+    heard = await here.interpreter.interpret(
+        body.text, session, body.language, asks=not body.dry_run, at_tick=body.at_tick
+    )
 
     @respond_once
     def respond(outcome: Outcome) -> Response:
@@ -103,7 +107,8 @@ async def run_actions(
     def respond(outcome: Outcome) -> Response:
         return json_response(result_json(outcome, None, body.dry_run), headers=etag(outcome.sequence))
 
-    utterance = Utterance(actions=tuple(body.actions))
+    check_tick(body.at_tick, session.timeline.tick, "at_tick")
+    utterance = Utterance(actions=tuple(body.actions), at_tick=body.at_tick)
     preconditions = conditions(respond)
     return respond(
         await here.interpreter.execute(session, utterance, dry_run=body.dry_run, preconditions=preconditions)

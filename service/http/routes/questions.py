@@ -15,6 +15,7 @@ from service.http.errors import problem_responses
 from service.http.responses import etag, json_response
 from service.http.route import api_router
 from service.http.route_policy import policy
+from service.http.ticks import check_tick
 from service.problems import (
     Ambiguous,
     ContentTooLarge,
@@ -56,6 +57,7 @@ async def ask_question(
     here: Here,
 ) -> Response:
     """Answers, and changes nothing."""
-    heard = await here.interpreter.interpret_question(body.question, session, body.language)
+    check_tick(body.at_tick, session.timeline.tick, "at_tick")
+    heard = await here.interpreter.interpret_question(body.question, session, body.language, body.at_tick)
     outcome = await here.interpreter.execute(session, heard.utterance)
     return json_response(outcome.answer, headers=etag(outcome.sequence))

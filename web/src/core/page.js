@@ -37,6 +37,13 @@ import { LANGUAGE } from "./texts.js";
  * @property {(call: (data: ArrayBuffer) => void) => void} onPicture  be called with each picture that the service sends
  */
 
+/** Whether it surely is a question, as far as that can be told before it is answered. @param {Said} sent */
+function asks(sent) {
+  return sent.type === "command" ? sent.text.trimEnd().endsWith("?") : sent.actions.every((action) => action.do === "ask");
+}
+
+/** @typedef {Extract<ClientMessage, {type: "command" | "actions"}>} Said */
+
 /**
  * @param {Store<State, Event>} store
  * @param {Connector} connector
@@ -51,13 +58,16 @@ export function createPage({ state, dispatch, subscribe }, connector, parts) {
   /**
    * @param {string} label
    * @param {boolean} quiet
-   * @param {(id: string) => ClientMessage} message
+   * @param {(id: string) => Said} message
    */
   function exchange(label, quiet, message) {
     exchanges += 1;
     const id = `${visit}-${exchanges}`;
-    dispatch({ type: "said", id, text: label, quiet });
-    if (!connector.send(message(id))) dispatch({ type: "unsent", id });
+    const { tick } = state().look;
+    const sent = message(id);
+    dispatch({ type: "said", id, text: label, quiet, asks: asks(sent) });
+    // What is asked is asked of the tick that is looked at.
+    if (!connector.send(tick === null ? sent : { ...sent, at_tick: tick })) dispatch({ type: "unsent", id });
     return id;
   }
 

@@ -31,6 +31,8 @@ const LONGEST_PAUSE_MS = 10_000;
 const PING_AFTER_MS = 8_000;
 /** A busy service, or machine, may take its time; one that is gone closes the socket at once. */
 const PATIENCE_MS = 15_000;
+/** A service answers in turn, a ping as well: while it works at something it is silent, though it is there. */
+const ANSWER_PATIENCE_MS = 90_000;
 
 /**
  * How long to wait before a try: doubling from 0.4 s to 10 s, less up to a fifth so that many pages
@@ -48,6 +50,7 @@ export class Connection {
   /** @type {WebSocket | null} */ #socket = null;
   /** @type {any} */ #timer = null;
   /** @type {number | null} the last sequence number seen */ #sequence = null;
+  /** The ids of what was sent over this socket and is not answered yet. @type {Set<string>} */ #unanswered = new Set();
   #attempt = 0;
   #closed = false;
 
@@ -88,6 +91,7 @@ export class Connection {
   send(message) {
     if (this.#socket === null || this.#socket.readyState !== 1) return false;
     this.#socket.send(encode(message));
+    if ("id" in message) this.#unanswered.add(message.id);
     return true;
   }
 
@@ -112,6 +116,7 @@ export class Connection {
       console.warn(error.message);
       return;
     }
+    if (message.type === "result" || message.type === "problem") this.#unanswered.delete(String(message.id));
     this.#listen(PING_AFTER_MS);
     if (message.type === "hello") {
       this.#attempt = 0;
@@ -131,7 +136,8 @@ export class Connection {
     const socket = this.#socket;
     this.#timer = this.wiring.later(() => {
       if (!this.send({ type: "ping" })) return this.#lose(socket);
-      this.#timer = this.wiring.later(() => this.#lose(socket), PATIENCE_MS);
+      const patienceMs = this.#unanswered.size > 0 ? ANSWER_PATIENCE_MS : PATIENCE_MS;
+      this.#timer = this.wiring.later(() => this.#lose(socket), patienceMs);
     }, delayMs);
   }
 
@@ -159,6 +165,7 @@ export class Connection {
   #drop() {
     const socket = this.#socket;
     this.#socket = null;
+    this.#unanswered.clear();
     if (socket === null) return;
     socket.onmessage = null;
     socket.onclose = null;

@@ -7,7 +7,7 @@
  * it is presentation, and belongs to the road's own stage (`motion.js`).
  */
 
-import { logChange, logEvents, logTick } from "../talk/journal.js";
+import { logChange, logEvents, logJump, logTick } from "../talk/journal.js";
 import { helloNote } from "./helloNote.js";
 import { NO_STEPS, stepsAfter } from "./undoStack.js";
 import { answerExchange, answerHere, beginExchange, endUnanswered, refuseExchange, withQuestion } from "../talk/exchanges.js";
@@ -18,6 +18,7 @@ import { INITIAL_VIEWS, viewsAfter } from "../ui/views.js";
 import { NOT_CONNECTED } from "../talk/notConnected.js";
 import { queueAfter } from "../road/moveQueue.js";
 import { worldAfter, worldOf } from "../road/world.js";
+import { decisionAfter, withDecision } from "../why/knownDecision.js";
 import { NO_REGRET, regretAfter } from "../why/regret.js";
 
 /** @import { Foresight } from "../why/forecast.js" */
@@ -64,7 +65,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @property {{other: Hypothesis} | null} comparison  the latest request to see what would have been; a new object each time
  */
 
-/** @typedef {{world: World, decision: Decision | null, narration: string | null}} Past */
+/** @typedef {{world: World, decision: Decision | null, narration: string | null}} Past  a tick, and what was decided there */
 
 /** @typedef {{tick: number | null, playing: boolean}} Look  null: the present; playing: it goes on by itself */
 
@@ -84,7 +85,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @typedef {{type: "session", id: string}
  *   | {type: "phase", phase: Phase}
  *   | {type: "trouble", text: string}
- *   | {type: "said", id: string, text: string, quiet: boolean}
+ *   | {type: "said", id: string, text: string, quiet: boolean, asks?: boolean}
  *   | {type: "unsent", id: string}
  *   | {type: "highlight", highlight: Highlight | null}
  *   | {type: "notice", notice: Notice | null}
@@ -96,6 +97,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  *   | {type: "comparison", other: Hypothesis}
  *   | {type: "done-here", id: string, text: string, reply: string}
  *   | {type: "talk", session: string, talk: Exchange[]}
+ *   | {type: "decision", session: string, decision: Decision}
  *   | {type: "past-lines", decisions: Told[], changes: RoadChange[]}
  *   | LoaderEvent | RegretEvent} PageEvent  what happened on this side of the wire
  */
@@ -184,6 +186,8 @@ function afterDoing(state, event) {
       return event.session === state.session ? { ...state, talk: event.talk } : state;
     case "timeline-changes":
       return { ...state, roadChanges: event.items };
+    case "decision":
+      return withDecision(state, event.session, event.decision);
     case "past-lines":
       return { ...state, log: withPastLines(state.log, event.decisions, event.changes, state.talk) };
     default:
@@ -202,11 +206,12 @@ function afterMessage(state, event) {
       if (event.views && !event.changes?.length) return arranged(state, event.views);
       return {
         ...(event.views ? arranged(state, event.views) : state),
+        ...decisionAfter(state, event.state),
         steps: stepsAfter(state.steps, event.state.undo, event.sequence),
         world: worldOf(event.state),
         queue: queueAfter(state.queue, event.changes ?? []),
         prior: null,
-        log: logChange(state.log, event),
+        log: logChange(logJump(state, event.state), event),
         highlight: null,
         ...(event.text === null && SPOKEN.has(String(event.events?.at(-1)?.type)) ? { announcement: event.reply } : {}),
       };

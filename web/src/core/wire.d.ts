@@ -7,6 +7,8 @@ export interface Actions {
   id: string;
   actions: Action[];
   dry_run?: boolean;
+  /** The past tick that is looked at: a question that names no tick of its own is asked of it, and the answer says which moment it is about. Orders are done now all the same. Default: now. */
+  at_tick?: number | null;
   /** Chosen by the client: done once under this key, and answered the same for 24 hours. */
   key?: string | null;
 }
@@ -246,6 +248,8 @@ export interface Command {
   text: string;
   dry_run?: boolean;
   language?: string | null;
+  /** The past tick that is looked at: a question that names no tick of its own is asked of it, and the answer says which moment it is about. Orders are done now all the same. Default: now. */
+  at_tick?: number | null;
   /** Chosen by the client: done once under this key, and answered the same for 24 hours. */
   key?: string | null;
 }
@@ -1068,6 +1072,8 @@ export interface Question {
   question: string;
   /** In which language; `GET /language` names them. Default: the session's. */
   language?: "en" | "de" | null;
+  /** The past tick that is looked at: a question that names no tick of its own is asked of it, and the answer says which moment it is about. Orders are done now all the same. Default: now. */
+  at_tick?: number | null;
 }
 
 /** The store answers. */
@@ -1246,6 +1252,8 @@ export interface Said {
   dry_run?: boolean;
   /** In which language; `GET /language` names them. Default: the session's. */
   language?: "en" | "de" | null;
+  /** The past tick that is looked at: a question that names no tick of its own is asked of it, and the answer says which moment it is about. Orders are done now all the same. Default: now. */
+  at_tick?: number | null;
 }
 
 /** Keep the session under a name. */
@@ -1683,6 +1691,8 @@ export interface TypedActions {
   actions: Action[];
   /** Say what would be done, and do nothing. */
   dry_run?: boolean;
+  /** The past tick that is looked at: a question that names no tick of its own is asked of it, and the answer says which moment it is about. Orders are done now all the same. Default: now. */
+  at_tick?: number | null;
 }
 
 /** Take back the latest changes (`steps`, by default one), as if they had never been said. */

@@ -20,8 +20,8 @@ import { clock } from "../core/words.js";
 const FASTEST_WATCHED = 8;
 /** How many ticks before the end are watched again, or driven by hand. */
 const TICKS_BEFORE = 5;
-/** Events that tell of a road and not of an end. */
-const OF_ROADS = new Set(["episode_started", "road_kept", "no_way", "way_open"]);
+/** Events that tell of an end. */
+const ENDS = new Set(["arrived", "crashed", "stuck"]);
 /** A preference: whether the next road begins by itself. */
 const GOES_ON = "ends_go_on";
 
@@ -64,9 +64,10 @@ export function createHold(page) {
   };
 }
 
-/** The line that told of the end. @param {State} state */
-export function endOf({ log }) {
-  return log.findLast(({ tone, type }) => tone === "event" && !OF_ROADS.has(type));
+/** The line that told of the end. @param {Pick<State, "log" | "world">} state */
+export function endOf({ log, world }) {
+  const end = log.findLast(({ type, gone }) => ENDS.has(type) && !gone);
+  return end && end.to >= (world?.tick ?? 0) - (world?.metrics.last_episode_ticks ?? 0) ? end : undefined;
 }
 
 /**
@@ -80,14 +81,16 @@ export function endingTemplate(state, page) {
   const end = endOf(state)?.to ?? world.tick;
   const ticks = world.metrics.last_episode_ticks ?? 0;
   const from = Math.max(0, end - Math.min(TICKS_BEFORE, ticks));
-  const told = world.status === "success" ? "summary" : "why";
+  const arrived = world.status === "success";
+  const told = arrived ? "summary" : "why";
+  const otherwise = world.status === "stuck" ? "leads_on" : "saved";
   return html`${ticks > 0 ? html`<p class="ending-figures">${t("ending.after", { time: clock(ticks * world.stepS), ticks })}</p>` : nothing}
     <div class="ending-buttons">
       ${button("next", t("ending.next"), () => void goOn(page, end), "strong")}
       ${button(told, t(`ending.${told}`), () => page.say(t(`ending.say.${world.status}`)))}
       ${button("watch", t("ending.watch"), () => void watch(page, from))}
-      ${world.status === "success" ? nothing : button("saved", t("ending.saved"), () => page.say(t("ending.say.saved")))}
-      ${button("drive", t("ending.drive"), () => page.act(driveActions(from, page), t("ending.drive")))}
+      ${arrived ? nothing : button(otherwise, t(`ending.${otherwise}`), () => page.say(t(`ending.say.${otherwise}`)))}
+      ${button("drive", t("ending.drive"), () => page.act(driveActions(arrived ? "episode" : from, page), t("ending.drive")))}
     </div>
     <label class="ending-choice"><input type="checkbox" .checked=${live(preference(GOES_ON) === "yes")} @change=${choose}> ${t("ending.go_on")}</label>`;
 }
@@ -108,12 +111,20 @@ async function watch(page, from) {
   page.timeTravel.play();
 }
 
-/** Back to where it could still be driven otherwise, with the person at the wheel. @param {number} from @param {Page} page @returns {Action[]} */
+/**
+ * Back to where it could still be driven otherwise, or to the start of a drive that went well, with the person at the
+ * wheel and the clock standing: each move makes its own tick.
+ * @param {number | "episode"} from
+ * @param {Page} page
+ * @returns {Action[]}
+ */
 function driveActions(from, page) {
   const { world } = page.state();
   /** @type {Action[]} */
   const wheel = world?.mode === "manual" ? [] : [{ do: "mode", mode: "manual" }];
-  return [{ do: "rewind", to: from }, ...wheel];
+  /** @type {Action[]} */
+  const still = world?.paused ? [] : [{ do: "pause" }];
+  return [{ do: "rewind", to: from }, ...wheel, ...still];
 }
 
 /** On to the next road: over what is left of the time for which a result stands. @param {Page} page @param {number} end */

@@ -13,15 +13,15 @@ const NEAR_END_PX = 24;
 /** @param {HTMLElement} host @returns {Panel} */
 export function createLog(host) {
   /** @type {Line[]} */ let lines = [];
-  /** The line of the decision that led to what is looked at. @type {Line | null} */
-  let looked = null;
+  /** The past tick that is looked at. @type {number | null} */ let tickLooked = null;
+  /** The line of what was decided there. @type {Line | null} */ let looked = null;
   let following = true;
   /** The list's size when it was last laid out: what it scrolls by itself because its size changes is nobody's wish. */
   let size = "";
 
   function show() {
     render(
-      html`<ol class="log-lines" tabindex="0" aria-label=${t("log.label")} data-none=${t("log.none")} @scroll=${scrolled}>${repeat(lines, ({ key }) => key, (line) => row(line, line === looked))}</ol>
+      html`<ol class="log-lines" tabindex="0" aria-label=${t("log.label")} data-none=${t("log.none")} @scroll=${scrolled}>${repeat(lines, ({ key }) => key, (line) => row(line, { looked: line === looked, later: tickLooked !== null && line.from > tickLooked }))}</ol>
         <button class="button small newest" type="button" ?hidden=${following} @click=${() => follow(true)}>${t("log.newest")}</button>`,
       host,
     );
@@ -45,6 +45,7 @@ export function createLog(host) {
 
   /** @param {number | null} tick */
   function lookAt(tick) {
+    tickLooked = tick;
     looked = tick === null ? null : (lines.findLast(({ from, to }) => from <= tick && tick <= to) ?? looked);
     show();
     if (tick === null) return follow(true);
@@ -61,7 +62,7 @@ export function createLog(host) {
   return {
     update({ log, past }, before) {
       lines = log;
-      if (past !== before.past) return lookAt(past && past.world.tick - 1);
+      if (past !== before.past) return lookAt(past && past.world.tick);
       if (log === before.log) return;
       show();
       if (following) follow(true);
@@ -72,9 +73,9 @@ export function createLog(host) {
 /** @param {Element} list */
 const sizeOf = ({ clientWidth, clientHeight }) => `${clientWidth} ${clientHeight}`;
 
-/** @param {Line} line @param {boolean} looked */
-function row(line, looked) {
-  return html`<li class="log-line" data-tone=${line.tone} data-type=${line.type} data-tick=${line.from} ?data-looked=${looked}>
+/** @param {Line} line @param {{looked: boolean, later: boolean}} seen  `later`: it speaks of what came after the tick that is looked at */
+function row(line, { looked, later }) {
+  return html`<li class="log-line" data-tone=${line.tone} data-type=${line.type} data-tick=${line.from} ?data-looked=${looked} ?data-later=${later || line.gone}>
     <span class="log-tick">${ticks(line)}</span>
     <span class="log-text">${line.said ? html`<span class="log-said">${t("log.said", { text: line.said })} </span>` : nothing}${line.text}</span>
   </li>`;

@@ -102,7 +102,7 @@ function template({ state, pointed, point, look, go }) {
   const { regret } = state;
   const ends = t("metrics.ends", { ...metrics });
   // A lost connection is told once, at the top of the page; what was known stays.
-  const values = { blocked: blockedText(regret, world.tick), ticks: (state.connection.phase === "live" && regret.trouble) || lostText(regret, world.tick) };
+  const values = { blocked: blockedText(regret, state.past ? world.tick : world.tick - 1), ticks: (state.connection.phase === "live" && regret.trouble) || lostText(regret, world.tick) };
   const titles = { blocked: t("metrics.risk"), ticks: t("metrics.regret") };
   const labels = {
     blocked: t("metrics.risk_label", { window: WINDOW, value: values.blocked }),
@@ -145,9 +145,9 @@ function distanceText(metres) {
   return metres < 1000 ? t("units.metres", { value: Math.round(metres) }) : t("units.kilometres", { value: decimalText(metres / 1000, 2) });
 }
 
-/** @param {Regret} regret @param {number} tick */
+/** @param {Regret} regret @param {number} tick  of the decision: the latest, or that of the tick that is looked at */
 function blockedText(regret, tick) {
-  const latest = regret.items.get(tick - 1);
+  const latest = regret.items.get(tick);
   return latest ? t("metrics.blocked", { blocked: latest.blocked }) : t("units.none");
 }
 

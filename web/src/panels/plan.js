@@ -167,7 +167,7 @@ function litCells(lit, world) {
 /** Of which tick the plan is. @param {Shown} shown @param {State} state */
 function whenText({ decision, world }, state) {
   if (!decision) return nothing;
-  return world === state.world && !state.past ? t("plan.next", { tick: world.tick }) : t("plan.under_way", { tick: world.tick, next: world.tick + 1 });
+  return world === state.world ? t("plan.next", { tick: world.tick }) : t("plan.under_way", { tick: world.tick, next: world.tick + 1 });
 }
 
 /** The plan in words. @param {Shown} shown */

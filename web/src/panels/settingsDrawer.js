@@ -110,6 +110,10 @@ export function createSettingsDrawer(page) {
     if (event.key === "Escape") close();
     if (event.key === "Escape" || event.key.startsWith("Arrow")) event.stopPropagation();
   });
+  // Wherever the focus is: what else is open, or being written, takes the key first.
+  addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && dialog.open && !event.defaultPrevented) close();
+  });
 
   return {
     update(state, before) {

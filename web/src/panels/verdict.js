@@ -4,6 +4,7 @@
 import { html, nothing } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { egoOf } from "../road/world.js";
+import { icon } from "../ui/icons.js";
 import { createSlot } from "../ui/slot.js";
 import { createHold, endingTemplate, endOf, endsNow, goOn } from "./ending.js";
 
@@ -22,7 +23,24 @@ export function createVerdict(host, page, places) {
   const hold = createHold(page);
   /** What is shown, and of what: an end keeps the words it came with. */
   let key = "";
+  /** Whether of the card only its title is seen, until the next end. */
+  let folded = false;
   /** @type {Verdict | null} */ let verdict = null;
+
+  /** @param {State} state */
+  function write(state) {
+    const ended = verdict !== null && state.world !== null && state.world.status !== "running" && !state.trouble;
+    const here = hold.follow() || state.past === null;
+    host.toggleAttribute("data-ended", ended && here);
+    const paused = state.world?.paused && state.world.status === "running";
+    const more = ended && here && state.connection.phase === "live" ? endingTemplate(state, page) : nothing;
+    const fold = () => {
+      folded = !folded;
+      write(state);
+    };
+    const card = verdict ? over(verdict, { folded, fold: ended ? foldButton(folded, fold) : nothing, more }, page) : nothing;
+    show(html`${card}${paused ? html`<p class="paused">${t("verdict.paused")}</p>` : nothing}`);
+  }
 
   return {
     commands: [
@@ -40,15 +58,10 @@ export function createVerdict(host, page, places) {
 
     update(state, before) {
       const next = keyOf(state);
-      if (next !== key) verdict = next === "" ? null : verdictOf(state);
+      if (next !== key) [verdict, folded] = [next === "" ? null : verdictOf(state), false];
       key = next;
-      const ended = verdict !== null && state.world !== null && state.world.status !== "running" && !state.trouble;
       if (endsNow(state, before)) void hold.begin(/** @type {NonNullable<State["world"]>} */ (state.world));
-      const here = hold.follow() || state.past === null;
-      host.toggleAttribute("data-ended", ended && here);
-      const paused = state.world?.paused && state.world.status === "running";
-      const more = ended && here && state.connection.phase === "live" ? endingTemplate(state, page) : nothing;
-      show(html`${verdict ? over(verdict, more, page) : nothing}${paused ? html`<p class="paused">${t("verdict.paused")}</p>` : nothing}`);
+      write(state);
     },
 
     /** The card stands where the crash is not. */
@@ -65,10 +78,21 @@ export function createVerdict(host, page, places) {
   };
 }
 
-/** @param {Verdict} verdict @param {unknown} more  what can be done about an end @param {Page} page */
-function over({ title, tone, text, offer }, more, page) {
-  return html`<div class="verdict" data-tone=${tone}>
+/** Shows the title alone, or all of the card again. @param {boolean} folded @param {() => void} fold */
+function foldButton(folded, fold) {
+  const label = t(folded ? "ending.unfold" : "ending.fold");
+  return html`<button class="verdict-fold" type="button" aria-expanded=${String(!folded)} aria-label=${label} title=${label} @click=${fold}>${icon(folded ? "plus" : "minus")}</button>`;
+}
+
+/**
+ * @param {Verdict} verdict
+ * @param {{folded: boolean, fold: unknown, more: unknown}} parts  `fold`: the button for that; `more`: what can be done about an end
+ * @param {Page} page
+ */
+function over({ title, tone, text, offer }, { folded, fold, more }, page) {
+  return html`<div class="verdict" data-tone=${tone} ?data-folded=${folded}>
     <p class="verdict-title">${title}</p>
+    ${fold}
     ${text ? html`<p class="verdict-text">${text}</p>` : nothing}
     ${offer ? html`<button class="button strong" type="button" @click=${page.startSession}>${offer}</button>` : nothing}
     ${more}

@@ -24,7 +24,7 @@ export function createLanes(road) {
     timer = null;
     if (!latest?.world) return;
     writtenAt = performance.now();
-    const lines = roadWords(latest.world, latest.decision);
+    const lines = roadWords(latest.world, latest.past ? null : latest.decision);
     show(
       html`<div class="unseen lanes" id="lanes" role="region" aria-label=${t("road.in_words")} tabindex="0">
         <ul>${lines.map((line) => html`<li>${line}</li>`)}</ul>

@@ -33,7 +33,6 @@ export function createManualDrive(host, place, page) {
   /** The tick of the latest move of a key held down: one a tick is enough. */
   let drivenAt = -1;
   let drivenMs = 0;
-  let words = "";
   /** The exchanges of moves that were sent while the clock ran. @type {string[]} */
   let sent = [];
 
@@ -59,14 +58,13 @@ export function createManualDrive(host, place, page) {
   const keys = watchDrivingKeys(page, drive, () => (page.state().world?.paused && performance.now() - drivenMs < HELD_MS ? Infinity : drivenAt));
 
   return {
-    update(state, before) {
+    update(state) {
       const { world } = state;
       const on = world?.mode === "manual" && state.past === null;
       host.toggleAttribute("data-manual", on);
       if (!on) keys.clear();
-      if (on && (before.world?.mode !== "manual" || words === "")) words = howText();
       const back = on ? heldBack(state) : null;
-      if (back) words = back;
+      const words = back ?? (world?.paused === false ? `${howText()} ${t("drive.runs")}` : howText());
       show(template({ on, ended: world?.status !== "running", words, queue: state.queue, held: back !== null, drive, page }));
     },
   };

@@ -238,12 +238,14 @@ function drawCauses({ pen, palette, progress, state, seen }) {
 /** Where the vehicle is about to be. @param {Moment} moment @param {Pose} ego */
 function drawIntent({ pen, palette, progress, state, world }, { thing, column, row }) {
   // What comes next is shown once the move before it is made.
-  const next = progress === 1 && world.paused && world.mode !== "manual" ? foreseen(state)?.decision : null;
+  const { past } = state;
+  const coming = past ? state.decision : world.paused && world.mode !== "manual" ? foreseen(state)?.decision : null;
+  const next = progress === 1 ? coming : null;
   if (next) {
     const [across, down] = STEPS[next.move];
     if (next.move === "stay") drawWait(pen, [column, row], 0, palette);
     else drawMove(pen, [column, row], [thing.cell[0] + across, thing.cell[1] + down], 0, { ...palette, accent: palette.next });
-  } else if (!state.decision) return;
+  } else if (!state.decision || past) return;
   else if (state.decision.move === "stay") drawWait(pen, [column, row], progress, palette);
   else drawMove(pen, [column, row], thing.cell, progress, palette);
 }

@@ -22,6 +22,7 @@ export function answerTemplate(answer, reply, page) {
   const hide = () => page.highlight(null);
   return html`<div class="answer" @pointerenter=${show} @pointerleave=${hide}>
     <p class="reply">${answer.text || reply}</p>
+    ${answer.tick !== null && others.length > 0 ? tickTemplate(answer.tick, page) : nothing}
     ${
       causes.length > 0
         ? html`<ul class="causes" aria-label=${t("answer.causes")}>${causes.map((cause) => causeTemplate(cause, whole, page))}</ul>
@@ -31,6 +32,12 @@ export function answerTemplate(answer, reply, page) {
     ${others.length > 0 ? alternativesTemplate(others, answer.tick, page) : nothing}
     ${play?.at_tick === undefined ? nothing : playButton(play, page)}
   </div>`;
+}
+
+/** The tick that is spoken of, and the way there. @param {number} tick @param {Page} page */
+function tickTemplate(tick, page) {
+  const go = () => void page.timeTravel.at(tick);
+  return html`<button class="answer-tick" type="button" title=${t("answer.go", { tick })} @click=${go}>${t("answer.at", { tick })}</button>`;
 }
 
 /** @param {Answer["causes"][number]} cause @param {Highlight | null} whole  what all of the answer points at @param {Page} page */
@@ -82,7 +89,11 @@ function watchButton(tick, actions, page) {
 
 /** @param {Option[]} alternatives @param {number | null} tick @param {Page} page */
 function alternativesTemplate(alternatives, tick, page) {
-  return html`<details class="alternatives">
+  const seen = (/** @type {Event} */ { currentTarget }) => {
+    const { open, lastElementChild } = /** @type {HTMLDetailsElement} */ (currentTarget);
+    if (open) lastElementChild?.scrollIntoView({ block: "nearest" });
+  };
+  return html`<details class="alternatives" @toggle=${seen}>
     <summary>${t("answer.others", { count: alternatives.length })}</summary>
     <ul>${alternatives.map((option) => alternativeTemplate(option, tick, page))}</ul>
   </details>`;

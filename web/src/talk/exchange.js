@@ -17,11 +17,11 @@ import { changesOf } from "./exchanges.js";
  * @param {{undos: number, taken: boolean, open: boolean}} standing  how many undos would take it back, 0 where none would;
  *     whether it was; whether its question waits for an answer
  */
-export function exchangeTemplate({ id, said, standing, result, problem }, page, { undos, taken, open }) {
+export function exchangeTemplate({ id, said, standing, result, problem, asks }, page, { undos, taken, open }) {
   return html`<article class="exchange" data-standing=${problem?.choices?.length ? "asked" : standing} data-id=${id}>
     <p class="said">${sentence(said, problem?.unparsed ?? [])}</p>
     ${standing === "pending" ? html`<p class="reply pending"><span class="dots" role="img" aria-label=${t("exchange.waiting")}></span></p>` : nothing}
-    ${standing === "unknown" ? html`<p class="reply">${t("exchange.lost")}</p>` : nothing}
+    ${standing === "unknown" ? html`<p class="reply">${t(asks ? "exchange.lost_question" : "exchange.lost")}</p>` : nothing}
     ${result ? resultTemplate(result, page, undos, taken) : nothing} ${problem ? problemTemplate(problem, page, open) : nothing}
   </article>`;
 }

@@ -12,15 +12,16 @@
  * @property {"pending" | "done" | "refused" | "unknown"} standing  "unknown": the connection was lost before the answer
  * @property {CommandResult | null} result
  * @property {Problem | null} problem
+ * @property {boolean} [asks]  it only asks
  * @property {boolean} [closed]  its question waits for no answer any more
  */
 
 export const TALK_EXCHANGES = 100;
 
-/** @param {Exchange[]} talk @param {{id: string, text: string, quiet: boolean}} said @returns {Exchange[]} */
-export function beginExchange(talk, { id, text, quiet }) {
+/** @param {Exchange[]} talk @param {{id: string, text: string, quiet: boolean, asks?: boolean}} said @returns {Exchange[]} */
+export function beginExchange(talk, { id, text, quiet, asks = false }) {
   /** @type {Exchange} */
-  const exchange = { id, said: text, quiet, standing: "pending", result: null, problem: null };
+  const exchange = { id, said: text, quiet, asks, standing: "pending", result: null, problem: null };
   return [...talk, exchange].slice(-TALK_EXCHANGES);
 }
 

@@ -6,6 +6,7 @@
  * what matters out of sight.
  */
 
+/** @import { State } from "../core/state.js" */
 /** @import { LogEvent, TickMessage, ChangedMessage } from "../core/protocol.js" */
 
 /**
@@ -17,6 +18,7 @@
  * @property {number} to  the last
  * @property {string} text
  * @property {string} [said]  the words that brought it about
+ * @property {boolean} [gone]  it tells of ticks that were taken back
  * @property {number} number  of the event in the session's log; 0 when it has none
  */
 
@@ -92,6 +94,25 @@ export function logChange(log, message) {
   const onTheWay = others.filter(({ from }) => from < tick);
   const after = others.filter(({ from, text }) => from >= tick && !message.reply.includes(text));
   return trimmed([...log, ...onTheWay, line, ...after]);
+}
+
+/**
+ * The log after a change, which may have moved time: where it went back, lines of what is no more are marked; where that
+ * is undone they count again.
+ * @param {Pick<State, "log" | "world" | "steps">} before
+ * @param {{tick: number, undo: number}} next
+ * @returns {Line[]}
+ */
+export function logJump({ log, world, steps }, { tick, undo }) {
+  const from = world?.tick ?? tick;
+  if (tick < from) return log.map((line) => (isAfter(line, tick) ? { ...line, gone: true } : line));
+  const undone = tick > from && undo < steps.done.length;
+  return undone ? log.map((line) => (line.gone && !isAfter(line, tick) ? { ...line, gone: false } : line)) : log;
+}
+
+/** A decision leads to the tick after its own. @param {Line} line @param {number} tick */
+function isAfter({ tone, to }, tick) {
+  return tone === "tick" ? to >= tick : to > tick;
 }
 
 /** @param {LogEvent} event @returns {Line} */

@@ -59,7 +59,7 @@ function situationForm(shown, situation, show) {
       situation.phase === "explained"
         ? html`<p><b>${t("quiz.did", { move: quiz.moves.find(({ id }) => id === situation.right.move)?.text ?? "" })}</b></p>
             <p>${situation.explanation}</p>`
-        : html`${choices("move", t("quiz.what"), quiz.moves)} ${choices("reason", t("quiz.why"), situation.reasons)}`
+        : html`<p class="dialog-note">${t("quiz.later")}</p>${choices("move", t("quiz.what"), quiz.moves)} ${choices("reason", t("quiz.why"), situation.reasons)}`
     }</div>
     </div>
     <button class="button strong" type="submit">${t("quiz.next")}</button>
@@ -115,6 +115,16 @@ function scalesForm(shown, show) {
   </form>`;
 }
 
+/** What was said of a road, and what was right. @param {Given} given @param {Quiz} quiz */
+function answered({ situation: { right, reasons }, move, reason }, { moves }) {
+  const said = (/** @type {Choice[]} */ all, /** @type {string} */ wanted) => all.find(({ id }) => id === wanted)?.text ?? "";
+  const both = (/** @type {string} */ of, /** @type {string} */ why) => t("quiz.both", { move: said(moves, of), reason: said(reasons, why) });
+  const good = move === right.move && reason === right.reason;
+  return html`<li data-right=${good}>
+    ${t(good ? "quiz.right" : "quiz.wrong", { said: both(move, reason) })} ${good ? nothing : t("quiz.was", { right: both(right.move, right.reason) })}
+  </li>`;
+}
+
 /** @param {Shown} shown */
 function scores({ quiz, given, rated }) {
   const [before, after] = [scoreOf(given, "before"), scoreOf(given, "after")];
@@ -122,5 +132,6 @@ function scores({ quiz, given, rated }) {
   const keep = () => save(new Blob([resultText(quiz, given, rated ?? {}, LANGUAGE)], { type: "application/json" }), `roadtalk-quiz-${quiz.planner}-${quiz.seed}.json`);
   return html`<p>${t("quiz.moves_right", { before: right(before.moves, before.count), after: right(after.moves, after.count), count: before.count })}</p>
     <p>${t("quiz.reasons_right", { before: right(before.reasons, before.count), after: right(after.reasons, after.count), count: before.count })}</p>
+    ${given.length > 0 ? html`<ol class="quiz-given">${given.map((each) => answered(each, quiz))}</ol>` : nothing}
     ${given.length > 0 ? html`<button class="button strong" type="button" @click=${keep}>${t("quiz.save")}</button>` : nothing}`;
 }

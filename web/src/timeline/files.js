@@ -18,8 +18,9 @@ export function createFiles(page) {
       const canvas = /** @type {HTMLCanvasElement | null} */ (document.querySelector("#road canvas"));
       if (!canvas || !session) return;
       canvas.toBlob((data) => {
-        if (data) save(data, fileName(session, `tick-${look.tick ?? world?.tick ?? 0}`, "png"));
-        else page.tell({ text: t("session.no_picture"), tone: "bad" });
+        const name = fileName(session, `tick-${look.tick ?? world?.tick ?? 0}`, "png");
+        if (data) save(data, name);
+        page.tell(data ? { text: t("session.picture_saved", { name }) } : { text: t("session.no_picture"), tone: "bad" });
       }, "image/png");
     },
 

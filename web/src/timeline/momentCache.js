@@ -17,11 +17,13 @@ export const PAGE = 16;
 /** Pages kept: some 60 KB each as the service tells them. */
 const PAGES = 24;
 /**
- * A moment as the panels know a present: a decision with the reason and causes that a tick message tells.
- * @param {Moment} moment
+ * A past tick as the panels know a present, with the decision that was taken there, which the service tells with the
+ * tick after it. The decision has the reason and causes that a tick message tells.
+ * @param {Pick<Moment, "state">} moment
+ * @param {Pick<Moment, "decision">} [after]
  * @returns {Past}
  */
-export function pastOf({ state, decision }) {
+export function pastOf({ state }, { decision } = { decision: null }) {
   const first = decision?.options?.[0];
   return {
     world: worldOf(state),
@@ -62,9 +64,9 @@ export class MomentCache {
   /** A tick alone. @param {number} tick @returns {Promise<Past>} throws `Refused` */
   async alone(tick) {
     const ones = this.#ones;
-    const { items } = await this.#moments(tick, 1);
-    const past = pastOf(items[0]);
-    ones.set(tick, past);
+    const { items } = await this.#moments(tick, 2);
+    const past = pastOf(items[0], items[1]);
+    if (items.length > 1) ones.set(tick, past);
     if (ones.size > PAGES * PAGE) ones.delete(ones.keys().next().value ?? tick);
     return past;
   }
@@ -83,9 +85,10 @@ export class MomentCache {
 
   /** @param {number} page @returns {Promise<Past[]>} */
   #ask(page) {
-    const asked = this.#moments(page * PAGE, PAGE).then(({ items }) => {
-      const moments = items.map(pastOf);
-      if (this.#pages.get(page) === asked) this.#here.set(page, moments);
+    const asked = this.#moments(page * PAGE, PAGE + 1).then(({ items }) => {
+      const moments = items.slice(0, PAGE).map((moment, index) => pastOf(moment, items[index + 1]));
+      // The present is not kept: what is decided there is not known yet.
+      if (this.#pages.get(page) === asked) this.#here.set(page, moments.slice(0, items.length - 1));
       return moments;
     });
     this.#pages.delete(page);

@@ -1,0 +1,63 @@
+"""Which moment a question is about that is asked while a past tick is looked at.
+
+Questions of one decision are about that tick; most others about the road as it was then; those of a whole
+drive about the drive that the tick belongs to. Some are about no moment, some only about the present, and
+some name a tick of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final, Literal
+
+from service.actions.action import Ask
+
+Moment = Literal["decision", "state", "drive", "present", "none"]
+"""`decision`: the one taken at the tick; `state`: how it stood then; `drive`: the whole episode of the tick;
+`present`: now, whatever is looked at; `none`: no moment at all, or one that the question brings along."""
+
+_OF: Final[Mapping[str, Moment]] = {
+    **dict.fromkeys(("why", "why_not", "what_if", "other"), "decision"),
+    **dict.fromkeys(("history", "blame", "pattern"), "drive"),
+    **dict.fromkeys(("changes",), "present"),
+    **dict.fromkeys(("help", "options", "term", "styles", "pending", "detail", "quiz"), "none"),
+}
+"""By kind of question; the state for those that are not listed."""
+
+_OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
+    **{("history", what): "decision" for what in ("seen", "similar", "choices", "runner_up", "scores")},
+    **{("history", what): "state" for what in ("waited", "passed")},
+    **{("planners", what): "decision" for what in ("here", "compare", "own")},
+    **{("planners", what): "none" for what in ("character", "method", "often", "difference")},
+    **{
+        ("world", what): "none"
+        for what in (
+            "chance",
+            "colours",
+            "moves",
+            "movers",
+            "weights",
+            "learning",
+            "nature",
+            "sources",
+            "by_hand",
+            "giving_up",
+        )
+    },
+    ("world", "harm"): "drive",
+}
+"""By kind and `what`, where that is another one."""
+
+
+def moment_of(ask: Ask, supposes: str | None = None) -> Moment:
+    """The moment of a question; `supposes`: what it takes for granted.
+
+    Why it crashed is asked of the drive, as the tick that is looked at is seldom that of the crash.
+    """
+    if ask.tick is not None:
+        return "none"
+    if ask.ticks is not None or ask.seconds is not None:
+        return "state"  # so long before the tick that is looked at
+    if ask.about == "why" and supposes == "crash":
+        return "drive"
+    return _OF_WHAT.get((ask.about, str(ask.what)), _OF.get(ask.about, "state"))
