@@ -9,6 +9,7 @@ from service.actions import Ask
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
+from service.narration.asked_moment import at_its_moment
 from service.narration.blame import Blames
 from service.narration.choices import Choices
 from service.narration.confidence import Confidences
@@ -37,7 +38,6 @@ from service.narration.soon import Soon
 from service.narration.status import Help, Status
 from service.narration.stretches import Stretches
 from service.narration.talk import OpenQuestion, RecentChanges
-from service.narration.asked_moment import at_its_moment
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.narration.world import Worlds
