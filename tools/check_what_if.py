@@ -154,9 +154,11 @@ def check(narrator: Narrator, draw: random.Random, timeline: Timeline, figures: 
     what = f"{before.config} tick {timeline.tick}: {change}: {answer['text']}"
     if timeline.state is not before or timeline.entries != log:
         figures.wrong.append(f"the session was touched: {what}")
-    fork = timeline.copy()
     if "play" not in answer:
         figures.cases["cannot be"] += 1
+        fork = (
+            timeline.copy() if before.world.ended is None else replayed_to(timeline, before.world.ended - 1)
+        )
         try:
             fork.apply(9, change)
         except EditError:
@@ -164,10 +166,19 @@ def check(narrator: Narrator, draw: random.Random, timeline: Timeline, figures: 
         figures.wrong.append(f"it can be: {what}")
         return
     play = answer["play"]
-    assert play["at_tick"] == fork.tick
+    if play["at_tick"] == timeline.tick:
+        as_it_is, fork = timeline.copy(), timeline.copy()
+    else:  # the drive has ended: it is looked at from a tick of it
+        figures.cases["a drive that has ended"] += 1
+        if (
+            before.world.ended is None
+            or not before.world.episode_start <= play["at_tick"] < before.world.ended
+        ):
+            figures.wrong.append(f"asked of tick {play['at_tick']}: {what}")
+        as_it_is, fork = (replayed_to(timeline, play["at_tick"]) for _ in range(2))
     actions: Any = contract.load(play["actions"])
     fork.apply(9, actions)
-    real, changed = run_on(timeline.copy()), run_on(fork)
+    real, changed = run_on(as_it_is), run_on(fork)
     figures.cases[f"{real.outcome} → {changed.outcome}"] += 1
     for told, came in ((answer["real"], real), (answer["changed"], changed)):
         stated = (told["outcome"], told["end_tick"], told["digest"], list(told["path"]))
@@ -175,7 +186,9 @@ def check(narrator: Narrator, draw: random.Random, timeline: Timeline, figures: 
             figures.wrong.append(f"{came}: {what}")
     if answer["same_road"]:
         check_difference(answer["first_difference"], real, changed, what, figures)
-    if "% of cases" in answer["text"]:  # where others react by chance, it tells the chance of the outcome
+    if (
+        "How others react is left to chance" in answer["text"]
+    ):  # where others react by chance, it tells the chance of the outcome
         figures.cases["told as a chance"] += 1
     elif "would change nothing" not in answer["text"]:
         seconds = fork.state.config.step_seconds * len(changed.path)
@@ -198,18 +211,23 @@ def check_difference(told: Any, real: Real, changed: Real, what: str, figures: F
         figures.wrong.append(f"they differ after {ahead}: {what}")
 
 
-def check_past(draw: random.Random, timeline: Timeline, figures: Figures) -> None:
-    """The same about a moment that has passed: replayed to there, with what was said by then."""
-    tick = draw.randrange(timeline.tick + 1)
-    change = a_change(draw)
+def replayed_to(timeline: Timeline, tick: int) -> Timeline:
+    """The session driven again to a tick, with what was said by then."""
     fork = Timeline(timeline.config)
     while True:
         for entry in timeline.entries:
             if entry.tick == fork.tick:
                 fork.apply(entry.sequence, [entry.action])
         if fork.tick == tick:
-            break
+            return fork
         fork.advance()
+
+
+def check_past(draw: random.Random, timeline: Timeline, figures: Figures) -> None:
+    """The same about a moment that has passed."""
+    tick = draw.randrange(timeline.tick + 1)
+    change = a_change(draw)
+    fork = replayed_to(timeline, tick)
     try:
         found = what_if(timeline, change, tick)
     except EditError:

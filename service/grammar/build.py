@@ -51,6 +51,8 @@ class Parameters:
     """What kinds of amount each numeric parameter takes, from `parameters.yaml`."""
 
     takes: Mapping[str, Sequence[str]]
+    vague: int = 0
+    """What "a few" counts as."""
 
     def fits(self, parameter: str, dimension: str) -> bool:
         """Whether an amount in this dimension can be a value of the parameter."""
@@ -98,6 +100,9 @@ def _fits(filled: Filled, path: str, values: Sequence[Any]) -> bool:
 def _ids(edge: Edge) -> tuple[str, ...]:
     return edge.sense.value.ids if isinstance(edge.sense.value, Amount) else ()
 
+
+SOME = "thing.bare_many"
+"""Concept of things without a number; on a new road these are a few: "a road with pedestrians"."""
 
 WHOLE = "whole"
 """The value of words for the whole road ("all over the road"); beside them there is no place on it."""
@@ -371,7 +376,8 @@ class _Maker:
             if key in without:
                 continue
             if isinstance(value, Amount):
-                key, value = f"{value.of}s", value.count
+                some = self._parameters.vague if edge.concept == SOME else value.count
+                key, value = f"{value.of}s", some
             if parts.get(key, value) != value:
                 raise CannotBuild(f"two values for {key}")
             if key in parts:

@@ -171,7 +171,9 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         numbers=numbers,
         contractions=contractions,
         typos=TypoRules.from_data(documents.typos),
-        parameters=Parameters({name: takes.split() for name, takes in words["parameters"].items()}),
+        parameters=Parameters(
+            {name: takes.split() for name, takes in words["parameters"].items()}, int(words["vague"])
+        ),
         frames=frames,
         messages=words["messages"],
         lanes=tuple(words.get("lanes", ())),

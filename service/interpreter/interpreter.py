@@ -27,7 +27,7 @@ from service.grammar.topic import ALONE, Topic
 from service.interpreter.aliases import Aliases
 from service.interpreter.languages import Language, Languages
 from service.interpreter.preview import Preview, preview
-from service.interpreter.question import Asked, answered, asked_by
+from service.interpreter.question import Asked, answered, asked_by, only_doable
 from service.interpreter.question_reader import QuestionReader, situations
 from service.interpreter.sentence_cache import SentenceCache
 from service.llm.protocol import LanguageModel
@@ -153,7 +153,8 @@ class Interpreter:
                 parsed = self._parse(language, text, topic)
         else:
             parsed = await to_thread.run_sync(self._parse, language, text, topic, limiter=self._parsing)
-        return answered(language, code, text, parsed, None if session is None else session.pending)
+        pending = None if session is None else session.pending
+        return only_doable(answered(language, code, text, parsed, pending), code)
 
     def _parse(self, language: Language, text: str, topic: Topic) -> Parse:
         return self._sentences.parse(language, text, topic, lambda seen: _parse(language, text, seen))

@@ -11,6 +11,8 @@ from service.grammar.answers import NoChoice, NoSuchChoice, read_answer
 from service.grammar.parse_types import Ambiguous as AmbiguousParse
 from service.grammar.parse_types import Choice, Parse, Refused, Understood
 from service.problems import Ambiguous
+from service.refusals import refusals
+from service.sessions.availability import refusal_of
 from service.sessions.pending import PendingChoice, PendingQuestion
 
 
@@ -36,6 +38,26 @@ def asked_by(parse: AmbiguousParse, language: str, pending: PendingQuestion | No
         return Asked(pending, parse.question)
     choices = tuple(PendingChoice(choice.text, choice.actions) for choice in parse.choices)
     return Asked(PendingQuestion(parse.text, parse.question, choices, "grammar", language))
+
+
+def only_doable(parse: Parse, language: str) -> Parse:
+    """A question with the choices alone that this version offers; with all of them where it offers none."""
+    if not isinstance(parse, AmbiguousParse):
+        return parse
+    refused = {each.text: why for each in parse.choices if (why := _why_not(each, language)) is not None}
+    doable = tuple(each for each in parse.choices if each.text not in refused)
+    if not refused or not doable:
+        return parse
+    if len(doable) > 1:
+        return AmbiguousParse(parse.text, parse.question, doable)
+    why = " ".join(dict.fromkeys(refused.values()))
+    question = refusals(language).said("means_one", sentence=doable[0].text, why=why)
+    return AmbiguousParse(parse.text, question, doable)
+
+
+def _why_not(choice: Choice, language: str) -> str | None:
+    """Why a choice cannot be done by this version, as a sentence; None if it can."""
+    return next((why for each in choice.actions if (why := refusal_of(each, language))), None)
 
 
 def answered(language: Any, code: str, text: str, parse: Parse, pending: PendingQuestion | None) -> Parse:

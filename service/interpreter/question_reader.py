@@ -95,7 +95,10 @@ class QuestionReader:
         if not asks:
             return None
         choices = tuple(PendingChoice(sentence, parse.actions) for sentence, parse in questions)
-        raise Asked(PendingQuestion(text, words.said("may_ask"), choices, "matched", code))
+        said = (
+            words.said("may_ask") if len(choices) > 1 else words.said("may_ask_one", sentence=choices[0].text)
+        )
+        raise Asked(PendingQuestion(text, said, choices, "matched", code))
 
 
 def situations(run: SimState) -> frozenset[Situation]:

@@ -52,14 +52,21 @@ class Courses:
         last = found.found[-1]
         if len(found.found) == 1:
             side = self._say("sides", "left" if last.left else "right")
-            told = [Part(0, self._say("lanes", "one", seconds=seconds, side=side, tick=last.tick))]
+            told = [
+                Part(
+                    0,
+                    self._say(
+                        "lanes", "one", seconds=seconds, side=side, when=self._when(last.tick, timeline)
+                    ),
+                )
+            ]
         else:
             counts = {"count": len(found.found), "left": found.left, "right": found.right}
             told = [Part(0, self._say("lanes", "many", seconds=seconds, **counts))]
             if found.diagonal:
                 key = "diagonal_one" if found.diagonal == 1 else "diagonal"
                 told.append(Part(1, self._say("lanes", key, diagonal=found.diagonal)))
-            told.append(Part(1, self._say("lanes", "last", tick=last.tick)))
+            told.append(Part(1, self._say("lanes", "last", when=self._when(last.tick, timeline))))
         return within(told)
 
     def _passed(self, found: Passed, kind: Kind | None) -> str:
@@ -98,7 +105,7 @@ class Courses:
         key = "waited" if waited.total else "not_waited"
         wait_s = in_seconds(self._sayings, waited.total, state.config)
         told.append(Part(1, self._say("verdict", key, seconds=wait_s)))
-        told += self._tight(risk)
+        told += self._tight(risk, timeline)
         if world.outcome is not Outcome.RUNNING:
             told.append(Part(2, self._say("verdict", "certain" if state.config.certain else "by_chance")))
         return within(told), verdict_json(state, waited, lost, risk)
@@ -109,17 +116,23 @@ class Courses:
             return []
         given = next((loss for loss in lost.found if loss.ticks is None), None)
         if given is not None:
-            return [Part(0, self._say("verdict", "gave_away", tick=given.tick))]
+            return [Part(0, self._say("verdict", "gave_away", when=self._when(given.tick, timeline)))]
         if lost.unknown:
             return []
         seconds = in_seconds(self._sayings, lost.ticks, timeline.state.config)
         return [Part(0, self._say("verdict", "lost" if lost.ticks else "no_loss", seconds=seconds))]
 
-    def _tight(self, risk: Risk | None) -> list[Part]:
+    def _tight(self, risk: Risk | None, timeline: Timeline) -> list[Part]:
         if risk is None or risk.crashed or len(risk.free) == len(risk.tried):
             return []
         counts = {"free": len(risk.free), "tried": len(risk.tried)}
-        return [Part(1, self._say("verdict", "tight", tick=risk.tick, **counts))]
+        return [Part(1, self._say("verdict", "tight", when=self._when(risk.tick, timeline), **counts))]
+
+    def _when(self, tick: int, timeline: Timeline) -> str:
+        """A moment of the drive, on the clock that tells how long it has lasted."""
+        after = tick - timeline.state.world.episode_start
+        seconds = in_seconds(self._sayings, after, timeline.state.config)
+        return self._sayings.say("history", "when", "later" if after else "start", after=seconds)
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("course", *keys, **parts)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from service.actions import Goal
 from service.narration.answerer import Json, plain
+from service.narration.charges import in_seconds
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked, Fact, Resolved
 from service.styles import styles
@@ -69,12 +70,15 @@ class Goals:
         return self._say(found.goal, things=things, lane=found.lane, row=found.row)
 
     def _ticks(self, found: Finding) -> str:
-        after = found.after.ticks
+        after = self._seconds(found.after.ticks, found)
         if found.before is None:
             opened = found.goal == "easier"
             return self._say("ticks_opened" if opened else "ticks", after=after)
-        key = "ticks_alike" if after == found.before.ticks else "ticks_other"
-        return self._say(key, after=after, before=found.before.ticks)
+        key = "ticks_alike" if found.after.ticks == found.before.ticks else "ticks_other"
+        return self._say(key, after=after, before=self._seconds(found.before.ticks, found))
+
+    def _seconds(self, ticks: int, found: Finding) -> str:
+        return in_seconds(self._sayings, ticks, found.state.config)
 
     def _room(self, found: Finding) -> str:
         if found.before is None or not found.before.room:
@@ -87,16 +91,17 @@ class Goals:
     def _drives(self, found: Finding) -> list[str]:
         """How the planners drive it, and how they drove the road as it was."""
         before = {each.planner: each for each in found.drives_before}
-        return [self._drive(each, before.get(each.planner)) for each in found.drives]
+        return [self._drive(each, before.get(each.planner), found) for each in found.drives]
 
-    def _drive(self, drive: Drive, before: Drive | None) -> str:
+    def _drive(self, drive: Drive, before: Drive | None, found: Finding) -> str:
         planner = self._sayings.planner(drive.planner, "with")
-        said = self._sayings.say(FILE, "drives", drive.outcome, planner=planner, ticks=drive.ticks)
+        seconds = self._seconds(drive.ticks, found)
+        said = self._sayings.say(FILE, "drives", drive.outcome, planner=planner, seconds=seconds)
         if before is None:
             return self._say("drive", said=said)
         same = (before.outcome, before.ticks) == (drive.outcome, drive.ticks)
         key = "as_before" if same else before.outcome.value
-        was = self._sayings.say(FILE, "before", key, ticks=before.ticks)
+        was = self._sayings.say(FILE, "before", key, seconds=self._seconds(before.ticks, found))
         return self._say("drive_before", said=said, before=was)
 
     def _say(self, key: str, **parts: object) -> str:

@@ -129,6 +129,9 @@ class Planners:
             parts.append(Part(1, self._parting(parting, found.state, past=past)))
         if sum(len(part.text.split()) for part in parts) > MOST_WORDS:
             parts = first + self._lines(found, best=best, briefly=True)
+        if best and not past and len(found.others) == 1:
+            named = self._sayings.planner(found.others[0].planner, "with")
+            parts.append(Part(2, self._say("more_runs", planner=named)))
         return within(parts, None)
 
     def _lines(self, found: PlannersHere, *, best: bool, briefly: bool, past: bool = False) -> list[Part]:

@@ -64,6 +64,9 @@ TOLD_SINGLY = 3
 """More things than this, put into cells one after another, are told at once."""
 
 
+RENEWED: Final = ("planner", "sensor", "weather", "time_of_day")
+"""Settings that a scenario sets to their defaults where it does not name them."""
+
 _OF_ERRING_SENSORS: Final = (
     "detection_sensitivity",
     "sensor_range_m",
@@ -165,7 +168,7 @@ class Replies:
             case MoveThings() | Swap() | Replace() | Copy() as action:
                 said = told_rearranged(self._sayings, applied, action)
             case Scenario():
-                return self._scenario(applied.state)
+                return " ".join((self._scenario(applied.state), *self._renewed(applied)))
             case SetMode(mode=mode):
                 changed = any(change.path == "mode" for change in applied.changes)
                 return self._say(f"mode_{mode}" if changed else "mode_already")
@@ -297,6 +300,20 @@ class Replies:
             :1
         ]
         return " ".join(told)
+
+    def _renewed(self, applied: Applied) -> list[str]:
+        """The settings that a new scenario put back without their being named."""
+        changed = {change.path: change for change in applied.changes}
+        return [
+            self._say(
+                "set",
+                name=self._sayings.say("replies", "parameters", name),
+                before=self._value(name, change.before),
+                after=self._value(name, change.after),
+            )
+            for name in RENEWED
+            if getattr(applied.action, name) is None and (change := changed.get(f"config.{name}")) is not None
+        ]
 
     def _new_road(self, run: SimState) -> str:
         road = self._sayings.say("replies", "roads", run.config.road or "none")

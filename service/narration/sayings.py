@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from pathlib import Path
@@ -186,24 +187,28 @@ class Sayings:
         """A cell as people call it: lanes count from 1."""
         return self.say("words", "at_cell", lane=cell[0] + 1, row=cell[1])
 
-    def met(self, option: Option, tense: str, naming: Names) -> str:
-        """What a move would meet, `now` or `then`."""
-        return self.in_the_way(option.reason, option.move, option.causes, tense, naming)
+    def met(self, option: Option, tense: str, naming: Names, *, again: frozenset[str] = frozenset()) -> str:
+        """What a move would meet, `now` or `then`; `again`: things that other moves are told to meet."""
+        return self.in_the_way(option.reason, option.move, option.causes, tense, naming, again=again)
 
     def all_met(self, options: Sequence[Option], tense: str, naming: Names) -> str:
         """What several moves would meet, like things told together."""
         told: list[str] = []
         alike: dict[tuple[str, str], list[Option]] = {}
+        meets = Counter(name for option in options for name in set(option.causes))
+        again = frozenset(name for name, times in meets.items() if times > 1)
         for option in options:
             kind = self._kind(option)
-            alone = option.reason not in self.words("words", "several") or (
-                tense == "then" and naming.imagined(option.causes)
+            alone = (
+                option.reason not in self.words("words", "several")
+                or not again.isdisjoint(option.causes)
+                or (tense == "then" and naming.imagined(option.causes))
             )
             key = ("", option.move) if alone else (option.reason.value, kind)
             alike.setdefault(key, []).append(option)
         for (reason, kind), group in alike.items():
             if len(group) == 1:
-                told.append(self.met(group[0], tense, naming))
+                told.append(self.met(group[0], tense, naming, again=again))
                 continue
             places = self.joined([self.move(option.move, "place") for option in group])
             many = self.things(kind, 2)
@@ -220,8 +225,20 @@ class Sayings:
         """That a thing was seen at a place, and was not there."""
         return self.say("words", "imagined", a=self.say("words", "a", kind_of(name)), where=where)
 
-    def in_the_way(self, reason: str, move: Move, ids: Sequence[str], tense: str, naming: Names) -> str:
-        """What is in the way of a move; in hindsight also that it was not there."""
+    def in_the_way(
+        self,
+        reason: str,
+        move: Move,
+        ids: Sequence[str],
+        tense: str,
+        naming: Names,
+        *,
+        again: frozenset[str] = frozenset(),
+    ) -> str:
+        """What is in the way of a move; in hindsight also that it was not there.
+
+        A thing that is told `again` goes by its name, and not as "a car", which would be another one.
+        """
         if not reason.startswith("ego_"):  # where movers or hazards are in the way, they are told alone
             ids = [name for name in ids if kind_of(name) is not Kind.AV]
         imagined = naming.imagined(ids) if tense == "then" else {}
@@ -242,4 +259,6 @@ class Sayings:
             return self.say("words", "both_cross", tense, who=who, place=place)
         kinds = movers or [kind_of(name) for name in ids]
         a = self.say("words", "a", kinds[0]) if kinds else ""
+        if len(ids) == 1 and ids[0] in again:
+            a = who
         return self.say("words", "reasons", reason, tense, who=who, a=a, place=place)

@@ -33,7 +33,7 @@ from sim.actions import (
 )
 from sim.explain import QuestionError
 from sim.explain.episode_rollout import EpisodeRollout
-from sim.explain.what_if import Difference, WhatIf, what_if
+from sim.explain.what_if import Difference, WhatIf, moment_of, what_if
 from sim.plan import traits_of
 from sim.session.edits import Applied
 from sim.session.errors import EditError
@@ -64,26 +64,32 @@ class WhatIfs:
         actions = imagined_actions(change) * (ask.count or 1)
         if not actions:
             return plain(self._sayings, ask, timeline.state, self._say("only_road"))
+        past, facts = self._had_been.told(asked)
+        if past:
+            return plain(self._sayings, ask, timeline.state, past) | facts
+        tick = moment_of(timeline, actions) if ask.tick is None else ask.tick
         try:
-            found = what_if(timeline, actions, ask.tick)
+            found = what_if(timeline, actions, tick)
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         except EditError as error:
             message = refusals(self._sayings.language).edit(error)
             told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=message))
             return told | {"evidence": {"code": error.category, "field": error.field, "message": message}}
-        text = self.text(ask, found)
+        text = self.text(ask, found, again=ask.tick is None and tick is not None)
         if len(imagined_actions(change)) < len(change):
             text = f"{text} {self._say('rest_aside')}"
-        past, facts = self._had_been.told(asked)
-        text = f"{past} {text}" if past else text
-        return plain(self._sayings, ask, found.state, text) | what_if_json(change, found) | facts
+        return plain(self._sayings, ask, found.state, text) | what_if_json(change, found)
 
-    def text(self, ask: Ask, found: WhatIf) -> str:
-        """What would be, in words."""
+    def text(self, ask: Ask, found: WhatIf, *, again: bool = False) -> str:
+        """What would be, in words; `again`: a drive that has ended is looked at from an earlier tick."""
         told = []
         if ask.tick is not None:
             told.append(self._say("from_tick", tick=found.state.world.tick))
+        elif again:
+            world = found.state.world
+            began = world.tick == world.episode_start
+            told.append(self._say("driven_again", "start" if began else "tick", tick=world.tick))
         if found.real.by_hand:
             told.append(self._say("by_hand"))
         if found.real.waited:
@@ -97,7 +103,7 @@ class WhatIfs:
             if found.state.world.tick in found.changed.held_back:
                 told.append(self._say("held_back" if self._on_road(found) else "off_road"))
             told += self._beside(found)
-        if found.said_since:
+        if found.said_since and not again:
             told.append(self._say("said_since", tick=ask.tick))
         return " ".join(told)
 
@@ -198,10 +204,10 @@ class WhatIfs:
 
     @staticmethod
     def _when(difference: Difference, found: WhatIf) -> str:
-        """Whether it differs `now`, `first` thing on the next road, or `later`."""
+        """Whether it differs `now`, `first` thing on the next road or of a drive that is over, or `later`."""
         if difference.ahead:
             return "later"
-        return "first" if found.real.waited else "now"
+        return "first" if found.real.waited or found.over else "now"
 
     @staticmethod
     def _alike(found: WhatIf) -> bool:

@@ -90,18 +90,20 @@ class QuestionMatcher:
         unknown = self._unknown(question.words)
         if len(unknown) > MOST_UNKNOWN:
             return None
+        unusual = {name for name, kind in self._kinds.items() if kind.when and kind.when not in situations}
         scores = self._weights.scores(question.words)
         order = sorted(
             (
-                (
-                    score - (UNUSUAL if (when := self._kinds[kind].when) and when not in situations else 0),
-                    kind,
-                )
+                (score - UNUSUAL * (kind in unusual), kind)
                 for score, kind in zip(scores.tolist(), self._weights.kinds, strict=True)
             ),
             key=lambda each: (-each[0], each[1]),
         )
-        return self._decided(question, order, UNKNOWN_COST * len(unknown))
+        match = self._decided(question, order, UNKNOWN_COST * len(unknown))
+        if match is not None and match.sure and order[0][1] in unusual:
+            # What is asked of a crash is hardly meant where there was none: it is offered, not answered.
+            return Match(match.sentences, sure=False)
+        return match
 
     def is_of_something_else(self, text: str) -> bool:
         """Whether a text is a question, and likest to those that no answer is for."""

@@ -146,11 +146,18 @@ class SlotWords:
                 where = _text(tokens, place.start, place.end)
                 yield _Span(start, place.end, "thing", slots | {"thing": f"{names['one']} {where}"})
 
-    def _is_a_move(self, edge: Edge, tokens: Sequence[Token]) -> bool:
+    def _is_a_move(self, edge: Edge, tokens: Sequence[Token], lattice: Lattice) -> bool:
         before = tokens[edge.start - 1].text if edge.start else ""
         after = tokens[edge.end].text if edge.end < len(tokens) else ""
         beside = self._data["no_move"]
-        return before not in beside["after"] and after not in beside["before"]
+        if before in beside["after"]:
+            return False
+        if after not in beside["before"]:
+            return True
+        then = lattice.edges[edge.end]
+        return tokens[edge.start].text not in beside["exactly"] and any(
+            each.concept == "tick" for each in then
+        )
 
     def _places(self, tokens: Sequence[Token], lattice: Lattice) -> Iterator[_Span]:
         """Sides, directions and numbers."""
@@ -168,7 +175,9 @@ class SlotWords:
                     yield _Span(edge.start, end, "side", {"side": _text(tokens, edge.start, edge.end)})
             elif edge.concept == "dir" and opening not in self._data["sides"]:
                 value = str(edge.sense.value)
-                if self._data["moves"].keys() - {FORWARD, STAY} >= {value} and self._is_a_move(edge, tokens):
+                if self._data["moves"].keys() - {FORWARD, STAY} >= {value} and self._is_a_move(
+                    edge, tokens, lattice
+                ):
                     yield _Span(edge.start, edge.end, "move", self._data["moves"][value])
             elif edge.concept == "number" and edge.sense.value not in (0, 1):
                 yield _Span(edge.start, edge.end, "n", {"n": str(edge.sense.value)})

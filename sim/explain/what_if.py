@@ -10,7 +10,7 @@ from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-from sim.actions import WorldAction
+from sim.actions import Add, Adjust, Prefer, Remove, Scenario, Set, SetCount, SetMode, WorldAction
 from sim.decide import announced_before, decide_on, sense
 from sim.explain.chances import Chances, chances
 from sim.explain.episode_rollout import Drive, EpisodeRollout, drive
@@ -57,6 +57,8 @@ class WhatIf:
     """whether the regret is exact: nothing is left to who gives way"""
     said_since: int
     """how many actions said after the moment are left out"""
+    over: bool
+    """whether the drive has ended since the moment"""
     real_chances: Chances | None = None
     """the chances as it is, where how others react is left to chance: `real` is then one future of many"""
     changed_chances: Chances | None = None
@@ -75,6 +77,34 @@ class WhatIf:
             not (each.changes or each.added or each.removed or each.moved or each.events)
             for each in self.done
         )
+
+
+def moment_of(timeline: Timeline, change: Sequence[WorldAction]) -> int | None:
+    """The tick from which a change is looked at that no tick was named for; None for now.
+
+    A drive that has ended is looked at again: how it is set and what is on its road from its beginning, or
+    from where something was last said; things at a place, and moves, where the last decision was made.
+    """
+    world = timeline.state.world
+    if world.ended is None or world.ended <= world.episode_start:
+        return None
+    last = world.ended - 1
+    if any(_hangs_on_the_place(action) for action in change):
+        return last
+    said = [entry.tick for entry in timeline.entries if entry.tick <= last]
+    return max([world.episode_start, *said])
+
+
+def _hangs_on_the_place(action: WorldAction) -> bool:
+    """Whether what an action does depends on where the ego is."""
+    match action:
+        case Remove(count=count, where=where, except_=but):
+            return count != "all" or where is not None or but is not None
+        case Add(where=where):
+            return where is not None
+        case Set() | Adjust() | SetCount() | Scenario() | SetMode() | Prefer():
+            return False
+    return True
 
 
 def what_if(
@@ -119,8 +149,19 @@ def what_if(
             chances(state, ego, seen=True, even_certain=not known),
             chances(changed, ego, seen=True, even_certain=not known),
         )
+    over = tick is not None and timeline.state.world.ended is not None
     return WhatIf(
-        state, tuple(done), real.story, other.story, same_road, difference, lost, certain, said_since, *likely
+        state,
+        tuple(done),
+        real.story,
+        other.story,
+        same_road,
+        difference,
+        lost,
+        certain,
+        said_since,
+        over,
+        *likely,
     )
 
 

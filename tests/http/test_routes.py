@@ -117,7 +117,7 @@ async def test_a_refusal_leaves_the_session_as_it_was(
 async def test_choices_are_ready_sentences(service: Service) -> None:
     path = await service.session()
     choices = (await service.say(path, "slow down")).json()["choices"]
-    assert [choice["text"] for choice in choices] == ["slow the simulation down", "drive slower"]
+    assert [choice["text"] for choice in choices] == ["slow the simulation down", "drive carefully"]
     assert choices[0]["actions"] == [{"do": "adjust", "parameter": "playback_speed", "direction": "down"}]
 
 

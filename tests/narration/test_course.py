@@ -150,3 +150,11 @@ def test_what_i_am_is_told_in_sentences(what: str, code: str) -> None:
     told = answer(driven(0), "world", what, code)
     assert told["text"].endswith(".")
     assert len(told["text"].split()) > 15
+
+
+@pytest.mark.parametrize("code", NARRATORS)
+@pytest.mark.parametrize("what", ["lane_changes", "verdict"])
+def test_one_clock_is_read_in_an_answer(code: str, what: str) -> None:
+    told = [answer(driven(20, seed=seed, potholes=25), "history", what, code)["text"] for seed in range(4)]
+    assert all(" s" in text for text in told)
+    assert [text for text in told if "tick" in text.lower()] == []

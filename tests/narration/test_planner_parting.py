@@ -6,12 +6,14 @@ from typing import Any
 
 import pytest
 
-from service.actions import Ask
+from service.actions import Ask, Evaluate
+from service.grammar import Language, Understood
 from service.narration.planners import Planners
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.config import Config
 from sim.explain.planners import planners_here
+from sim.planner_names import BUILT_IN
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
@@ -75,3 +77,17 @@ def test_with_several_others_none_is_singled_out() -> None:
     ask = Ask(about="planners", what="compare")
     found = Planners(Sayings.load()).answer(Asked(ask, Timeline(Config(rows=10))))
     assert found["parting"] is None
+
+
+@pytest.mark.parametrize("code", ["en", "de"])
+def test_it_says_how_to_run_the_road_many_times(code: str) -> None:
+    timeline, language, sayings = Timeline(Config(seed=1)), Language.load(code), Sayings.load(code)
+    for other in sorted(set(BUILT_IN) - {timeline.state.config.planner}):
+        ask = Ask(about="planners", what="compare", planners=(other,))
+        text = Planners(sayings).answer(Asked(ask, timeline))["text"]
+        told = text.replace("„", "“").replace("”", "“").split("“")[-2]
+        parsed = language.parse(told)
+        assert isinstance(parsed, Understood), text
+        (evaluation,) = parsed.actions
+        assert isinstance(evaluation, Evaluate)
+        assert (evaluation.runs, evaluation.road, evaluation.planners) == (100, "this", (other,))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import deepcopy
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import yaml
 from service.narration.sayings import Sayings
 from service.resources import prompts_folder
 from sim.forecast import StepVerdict
+from sim.plan import Option
 from sim.types import PLACEABLE, Kind, Move, Outcome
 
 SAYINGS = Sayings.load()
@@ -71,3 +73,36 @@ def test_a_kind_that_is_not_listed_gets_its_words_from_its_nouns() -> None:
     assert sayings.say("naming", "the", "pedestrian") == "the pedestrian"
     assert sayings.words("scene", "nouns", "pedestrian") == ["pedestrian", "pedestrians"]
     assert sayings.words("ends", "sakes", "pedestrian") == ["for a pedestrian", "for pedestrians"]
+
+
+class OneName:
+    """Calls everything the same."""
+
+    def things(self, names: Sequence[str]) -> str:
+        return " and ".join(names)
+
+    def imagined(self, names: Sequence[str]) -> dict[str, str]:  # noqa: ARG002
+        return {}
+
+
+@pytest.mark.parametrize("code", ["en", "de"])
+@pytest.mark.parametrize(
+    "reasons",
+    [
+        (StepVerdict.MOVER_SWAPS, StepVerdict.MOVER_ENTERS),
+        (StepVerdict.MOVER_CROSSES, StepVerdict.MOVER_CROSSES),
+    ],
+)
+def test_one_thing_in_the_way_of_two_moves_is_not_told_as_two(
+    code: str, reasons: tuple[StepVerdict, StepVerdict]
+) -> None:
+    sayings = Sayings.load(code)
+    moves = (Move.LEFT, Move.FORWARD_LEFT)
+    pairs = zip(moves, reasons, strict=True)
+    options = [Option(move, (0, 0), reason, None, ("vehicle-7",)) for move, reason in pairs]
+    told = str(sayings.all_met(options, "then", OneName()))
+    assert told.count("vehicle-7") == 2
+    another = [str(sayings.say("words", "a", "vehicle")), sayings.things("vehicle", 2)]
+    assert [words for words in another if words in told.replace("vehicle-7", "")] == []
+    two = [Option(move, (0, 0), reasons[0], None, (f"vehicle-{move}",)) for move in moves]
+    assert str(sayings.all_met(two, "then", OneName())) != told

@@ -10,11 +10,11 @@ from service import actions as contract
 from service.actions import Ask
 from service.narration import Narrator
 from service.sessions.facts import Asked
-from sim.actions import Set
+from sim.actions import Add, Drive, Set
 from sim.config import Config
 from sim.session.timeline import Timeline
 from sim.state import SimState
-from sim.types import Mode, Outcome
+from sim.types import Mode, Move, Outcome
 from tests.support.narration_checks import ids_in, looks_like_sentences
 from tests.support.roads import road, run_on
 from tools.check_what_if import a_change, sessions
@@ -93,13 +93,34 @@ def test_driven_by_hand() -> None:
     )
 
 
-def test_after_the_end_the_next_road_is_meant() -> None:
+def test_after_the_end_the_drive_that_has_ended_is_meant() -> None:
     timeline = Timeline(Config(seed=2, vehicles=0))
     while timeline.state.world.outcome is Outcome.RUNNING:
         timeline.advance()
     change = (Set(parameter="planner", value="bfs"),)
     told = NARRATOR.answer(Asked(Ask(about="what_if", change=change), timeline))
-    assert str(told["text"]).startswith("This episode is over, so I looked at the next road. If I planned")
+    assert str(told["text"]).startswith("Driven again from the start of this drive: If I planned")
+    again = NARRATOR.answer(Asked(Ask(about="what_if", change=change, tick=0), timeline))
+    assert told["changed"] == again["changed"]
+
+
+def test_what_was_said_during_a_drive_holds_when_it_is_driven_again() -> None:
+    timeline = Timeline(Config(seed=2, vehicles=0))
+    timeline.advance()
+    timeline.apply(1, [Add(kind="barrier", count=1)])
+    while timeline.state.world.outcome is Outcome.RUNNING:
+        timeline.advance()
+    change = (Set(parameter="planner", value="bfs"),)
+    told = NARRATOR.answer(Asked(Ask(about="what_if", change=change), timeline))
+    assert str(told["text"]).startswith("Driven again from tick 1: If I planned")
+
+
+def test_things_at_a_place_are_those_of_the_last_decision_of_a_drive_that_has_ended() -> None:
+    timeline = Timeline(Config(seed=2, vehicles=0))
+    while timeline.state.world.outcome is Outcome.RUNNING:
+        timeline.advance()
+    told = NARRATOR.answer(Asked(Ask(about="what_if", change=(Drive(move=Move.LEFT),)), timeline))
+    assert str(told["text"]).startswith(f"Driven again from tick {timeline.tick - 1}:")
 
 
 def test_whatever_is_asked_the_words_hold_to_the_facts() -> None:

@@ -57,10 +57,13 @@ class FewSentences:
     def parse(self, text: str, topic: Topic = ALONE) -> Parse:  # noqa: ARG002
         if text == "slow down":
             choices = [
-                Choice(phrase, contract.load([{"do": "adjust", "parameter": parameter, "direction": "down"}]))
-                for phrase, parameter in (
-                    ("slow the simulation down", "playback_speed"),
-                    ("drive slower", "target_speed_kmh"),
+                Choice(phrase, contract.load([action]))
+                for phrase, action in (
+                    (
+                        "slow the simulation down",
+                        {"do": "adjust", "parameter": "playback_speed", "direction": "down"},
+                    ),
+                    ("drive carefully", {"do": "prefer", "preference": "cautious"}),
                 )
             ]
             return Ambiguous(text, "The playback or the vehicle?", tuple(choices))

@@ -181,7 +181,7 @@ test("the road is told a lane a sentence, the nearest first", () => {
   const world = worldOf(wireState({ hazards: [{ id: "pothole-1", kind: "pothole", cell: [4, 17] }, { id: "barrier-1", kind: "barrier", cell: [4, 19] }, { id: "pothole-2", kind: "pothole", cell: [4, 2] }] }));
   const lines = roadWords(world, { tick: 9, move: "left" });
   assert.equal(lines.length, 9);
-  assert.equal(lines[0], "Tick 10. The vehicle is in lane 5 of 8, 20 rows from the destination. It last moved left.");
+  assert.equal(lines[0], "Tick 10. The vehicle is in lane 5 of 8, 20 rows from the destination. Its last move: left.");
   assert.equal(lines[5], "Lane 5, its own: a barrier 1 row ahead; a pothole 3 rows ahead.");
   assert.equal(lines[3], "Lane 3: a car 1 row ahead, heading right.");
   assert.equal(lines[1], "Lane 1: free as far as is seen.");
