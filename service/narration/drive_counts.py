@@ -71,7 +71,9 @@ class DriveCounts:
         ]
         kinds = self._say("stops", "kinds", kinds=self._sayings.joined(named)) if named else ""
         last = self._last(found.found[-1], timeline)
-        return within([Part(0, head), Part(0, kinds), Part(1, last), Part(1, unknown)])
+        bare = sum(stop.ids == () for stop in found.found)
+        none = self._say("stops", "no_thing", count=bare) if bare else ""
+        return within([Part(0, head), Part(0, kinds), Part(0, none), Part(1, last), Part(1, unknown)])
 
     def _last(self, stop: Stop, timeline: Timeline) -> str:
         seconds = self._seconds(stop.ticks, timeline)

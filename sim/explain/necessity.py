@@ -85,7 +85,7 @@ def necessity(timeline: Timeline, tick: int | None = None, move: Move | None = N
         tried = _wait(timeline, state)
     met = [(each, found) for each in tried if (found := _met(each, foil)) is not None]
     if met:
-        state, hit = next(((each, found) for each, found in met if each is state), met[0])
+        state, hit = next(((each, found) for each, found in met if each.world.tick == state.world.tick), met[0])
         decision = timeline.decided(state) or decision
     else:
         state, hit = tried[0], ()
