@@ -25,8 +25,8 @@ _OF: Final[Mapping[str, Moment]] = {
 """By kind of question; the state for those that are not listed."""
 
 _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
-    **{("history", what): "decision" for what in ("seen", "similar", "choices", "runner_up", "scores")},
-    **{("history", what): "state" for what in ("waited", "passed")},
+    **{("history", what): "decision" for what in ("seen", "similar", "choices", "runner_up", "scores", "needed")},
+    **{("history", what): "state" for what in ("waited", "passed", "stops", "lanes_used")},
     **{("planners", what): "decision" for what in ("here", "compare", "own")},
     **{("planners", what): "none" for what in ("character", "method", "often", "difference")},
     **{

@@ -49,15 +49,21 @@ OutlookName = Literal[
     "matters",
     "risk",
     "coming",
+    "next_stop",
+    "next_change",
 ]
 """What of the time ahead is asked about.
 
 `way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is;
 `free`: which moves meet nothing now; `matters`: what the coming move hangs on; `risk`: how safe it is now;
-`coming`: what happens in the next ticks or seconds.
+`coming`: what happens in the next ticks or seconds; `next_stop`, `next_change`: when the vehicle will next
+stop or change lanes.
 """
-BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human"]
-"""What about a crash is asked. `human`: whether a person would have crashed."""
+BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human", "first_seen"]
+"""What about a crash is asked.
+
+`human`: whether a person would have crashed; `first_seen`: since when what was hit was seen.
+"""
 PlannersName = Literal["here", "compare", "character", "own", "method", "often", "difference"]
 """What about planners is asked.
 
@@ -82,6 +88,10 @@ HistoryName = Literal[
     "lane_changes",
     "passed",
     "verdict",
+    "needed",
+    "stops",
+    "lanes_used",
+    "tight",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -89,7 +99,10 @@ HistoryName = Literal[
 have cost against the quickest way; `runner_up`: the second best move of a decision; `scores`: what it made of
 each move; `waited`: how long the ego has waited; `differed`: moves of a person that the planner would not
 have made; `before_crash`: what was hit, and the ego, in the last ticks before the latest crash;
-`lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went.
+`lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went;
+`needed`: whether a move was needed, the latest that was not straight on by default; `stops`: how often it
+stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: the ticks with one free move or
+none.
 """
 SightName = Literal["phantoms", "missed", "truth", "range", "blind", "weather", "care", "weathers", "sensors"]
 """What about sensing is asked.
@@ -229,7 +242,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
     "history": QuestionTraits(
-        ("what", "tick", "until", "ticks", "seconds", "count", "kind"), ("what",), runs_episodes=True
+        ("what", "move", "tick", "until", "ticks", "seconds", "count", "kind"), ("what",), runs_episodes=True
     ),
     "styles": QuestionTraits(),
     "changes": QuestionTraits(("count", "tick")),
@@ -274,6 +287,8 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "free": (frozenset(),),
     "matters": (frozenset(),),
     "risk": (frozenset(),),
+    "next_stop": (frozenset(),),
+    "next_change": (frozenset(),),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),
     **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
@@ -307,6 +322,11 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "waited": (frozenset(),),
     "differed": (frozenset(),),
     "before_crash": (frozenset(),),
-    **dict.fromkeys(("lane_changes", "passed", "verdict"), (frozenset(),)),
+    **dict.fromkeys(
+        ("lane_changes", "passed", "verdict", "stops", "lanes_used", "tight"), (frozenset(),)
+    ),
+    "needed": tuple(
+        frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
+    ),
 }
 """The ticks that a question about the past names, in each of the ways it can be said."""

@@ -12,9 +12,11 @@ from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.asked_moment import at_its_moment
 from service.narration.blame import Blames
 from service.narration.choices import Choices
+from service.narration.coming_turn import ComingTurns
 from service.narration.confidence import Confidences
 from service.narration.course import Courses
 from service.narration.details import Details
+from service.narration.drive_counts import DriveCounts
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
 from service.narration.history import History
@@ -22,6 +24,7 @@ from service.narration.human_drivers import HumanDrivers
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
+from service.narration.necessity import Necessities
 from service.narration.next import Next
 from service.narration.others import Others
 from service.narration.planner_difference import PlannerDifferences
@@ -74,6 +77,9 @@ class Answers:
             Soon(sayings): ("risk", "coming"),
             Moments(sayings): ("riskiest", "similar"),
             Courses(sayings): ("lane_changes", "passed", "verdict"),
+            DriveCounts(sayings): ("stops", "lanes_used", "tight"),
+            Necessities(sayings): ("needed",),
+            ComingTurns(sayings): ("next_stop", "next_change"),
             SensingCompared(sayings): ("care", "weathers", "sensors"),
             WorldRules(sayings): RULES_OF_THE_WORLD,
             PlannerDifferences(sayings): ("difference",),
@@ -155,7 +161,7 @@ def _at_the_detour(asked: Asked) -> Asked:
 
 def _meets_one_tick(ask: Ask) -> bool:
     """Whether so many ticks back is the tick of one decision, rather than where a stretch begins."""
-    return ask.about not in ("history", "outlook") or ask.what in ("choices", "runner_up", "scores")
+    return ask.about not in ("history", "outlook") or ask.what in ("choices", "runner_up", "scores", "needed")
 
 
 def _at_its_tick(asked: Asked) -> Asked:
