@@ -198,6 +198,8 @@ class _Maker:
                 return self._relative(name)
             case "parts":
                 return self.parts()
+            case "settings":
+                return self._settings()
             case "planners":
                 return self._planners(attribute) or _ABSENT
             case "eval_scenario":
@@ -286,6 +288,13 @@ class _Maker:
         if (len(things) != 1 or things[0].count != 1) not in edge.sense.value.many:
             raise CannotBuild("one becomes one, many become many")
         return str(edge.sense.value.kind)
+
+    def _settings(self) -> list[dict[str, Any]]:
+        """The settings that were said, in order, each as an action that sets it."""
+        said = sorted(self._filled.of(*_SETTINGS), key=lambda edge: edge.start)
+        if len({edge.concept for edge in said}) < len(said):
+            raise CannotBuild("two values for one setting")
+        return [{"do": "set", "parameter": edge.concept, "value": edge.sense.value} for edge in said]
 
     def _planners(self, attribute: str) -> list[Any]:
         """The planners in the order said; as `pair` or `reversed` there must be two of them."""
