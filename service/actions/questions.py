@@ -58,11 +58,12 @@ OutlookName = Literal[
 """
 BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human"]
 """What about a crash is asked. `human`: whether a person would have crashed."""
-PlannersName = Literal["here", "compare", "character", "own", "method", "often", "difference"]
+PlannersName = Literal["here", "compare", "character", "own", "method", "often", "difference", "parting"]
 """What about planners is asked.
 
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
-often it arrives, crashes and gets stuck; `difference`: how some differ in general.
+often it arrives, crashes and gets stuck; `difference`: how some differ in general; `parting`: where two first
+decide otherwise on this road.
 """
 HistoryName = Literal[
     "closest_call",
@@ -91,11 +92,12 @@ each move; `waited`: how long the ego has waited; `differed`: moves of a person 
 have made; `before_crash`: what was hit, and the ego, in the last ticks before the latest crash;
 `lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went.
 """
-SightName = Literal["phantoms", "missed", "truth", "range", "blind", "weather", "care", "weathers", "sensors"]
+SightName = Literal["phantoms", "missed", "truth", "range", "blind", "weather", "care", "weathers", "sensors", "prevents"]
 """What about sensing is asked.
 
 `truth`: what is really there; `blind`: whether it drives blind; `weather`: whether the weather made a
-difference; `care`: whether it drives otherwise in bad weather; `weathers`, `sensors`: which is best or worst.
+difference; `care`: whether it drives otherwise in bad weather; `weathers`, `sensors`: which is best or worst; `prevents`:
+which sensor would have led to the goal.
 """
 WorldName = Literal[
     "pace",
@@ -288,6 +290,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "method": (frozenset(), frozenset(("planner",))),
     "often": (frozenset(),),
     "difference": (frozenset(("planners",)),),
+    "parting": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have

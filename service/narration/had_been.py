@@ -8,6 +8,7 @@ from service.actions import Ask
 from service.narration.charges import in_seconds
 from service.narration.futures_told import yes_and_no
 from service.narration.sayings import Sayings
+from service.narration.supposed_ends import SEES, agrees
 from service.narration.values import value_of
 from service.sessions.facts import Asked
 from sim.actions import Set
@@ -19,8 +20,6 @@ from sim.state import SimState
 from sim.types import Outcome
 
 _VARIED: Final = ("sensor", "weather", "time_of_day")
-FAILS, ARRIVES, SEES: Final = "fails", "arrives", "sees"
-"""What a question supposes: that it fails all the same, that it goes well, or that the thing is seen."""
 
 
 class HadBeen:
@@ -62,9 +61,12 @@ class HadBeen:
         ]
         crashed = state.world.outcome is Outcome.CRASH
         told = []
-        agrees = {FAILS: not found.avoids, ARRIVES: found.avoids, SEES: since is not None}
-        if asked.supposes in agrees and (crashed or asked.supposes != SEES):
-            told.append(yes_and_no(self._sayings, asked)["yes" if agrees[asked.supposes] else "no"] + ".")
+        as_supposed = since is not None if asked.supposes == SEES and crashed else None
+        if found.outcome is not None and as_supposed is None:
+            as_supposed = agrees(asked.supposes, found.outcome)
+        if as_supposed is not None:
+            word = yes_and_no(self._sayings, asked)["yes" if as_supposed else "no"]
+            told.append(self._sayings.say("whatif", "yes_no", word=word))
         if crashed and state.config.sensor != DEFAULT_SENSOR:
             key = "unseen" if since is None else "seen"
             told.append(self._say(key, supposed=self._sayings.joined(supposed), tick=since))
