@@ -85,7 +85,9 @@ class Embed {
     this.road.update?.(next, this.shown);
     this.shown = next;
     this.loop.wake();
-    this.#tell(past.narration ?? (past.world.status === "running" ? "" : t(`verdict.${past.world.status}`)));
+    const { status } = past.world;
+    // Of the present nothing is decided yet: what was told last stands.
+    if (past.narration !== null || status !== "running") this.#tell(past.narration ?? t(`verdict.${status}`));
   }
 
   /** @param {boolean} on */
