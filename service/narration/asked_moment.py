@@ -80,7 +80,7 @@ def where_stuck(timeline: Timeline) -> Timeline | None:
 
 def _says_tick(ask: Ask) -> bool:
     """Whether the answer about a tick names it by itself."""
-    return ask.about in ("why", "why_not") or ask.what in ("seen", "choices", "runner_up", "scores")
+    return ask.about in ("why", "why_not") or ask.what in ("seen", "choices", "runner_up", "scores", "needed")
 
 
 def _is_made(timeline: Timeline, tick: int, move: Move | None) -> bool:
