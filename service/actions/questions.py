@@ -377,9 +377,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "waited": (frozenset(),),
     "differed": (frozenset(),),
     "before_crash": (frozenset(),),
-    **dict.fromkeys(
-        ("lane_changes", "passed", "verdict", "stops", "lanes_used", "tight"), (frozenset(),)
-    ),
+    **dict.fromkeys(("lane_changes", "passed", "verdict", "stops", "lanes_used", "tight"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),
