@@ -66,6 +66,8 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
         )
     },
     ("world", "harm"): "drive",
+    ("sight", "prevents"): "drive",
+    ("planners", "parting"): "drive",
 }
 """By kind and `what`, where that is another one."""
 

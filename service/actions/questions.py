@@ -79,11 +79,13 @@ PlannersName = Literal[
     "costs",
     "stops",
     "prediction",
+    "parting",
 ]
 """What about planners is asked.
 
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
-often it arrives, crashes and gets stuck; `difference`: how some differ in general. How one decides always:
+often it arrives, crashes and gets stuck; `difference`: how some differ in general; `parting`: where two first
+decide otherwise on this road. How one decides always:
 `lookahead`: how far ahead; `ties`: among equals; `replanning`: how often; `precedence`: in what order it tries
 moves; `costs`: what costs what; `stops`: when it waits; `prediction`: whether it knows where others go.
 """
@@ -135,13 +137,15 @@ SightName = Literal[
     "unseen",
     "detection",
     "combining",
+    "prevents",
 ]
 """What about sensing is asked.
 
 `truth`: what is really there; `blind`: whether it drives blind; `weather`: whether the weather made a
 difference; `care`: whether it drives otherwise in bad weather; `weathers`, `sensors`: which is best or worst;
 `memory`: whether it remembers what it saw; `unseen`: what a cell out of sight counts as; `detection`: how
-surely each sensor detects a kind of things; `combining`: how several devices become one belief.
+surely each sensor detects a kind of things; `combining`: how several devices become one belief; `prevents`:
+which sensor would have led to the goal.
 """
 WorldName = Literal[
     "pace",
@@ -357,6 +361,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
         (frozenset(), frozenset(("planner",))),
     ),
     "prediction": (frozenset(),),
+    "parting": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
     "detection": (frozenset(("kind",)),),
 }

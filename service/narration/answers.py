@@ -29,6 +29,7 @@ from service.narration.next import Next
 from service.narration.others import Others
 from service.narration.planner_difference import PlannerDifferences
 from service.narration.planner_facts import PlannerFacts
+from service.narration.planner_parting import PlannerPartings
 from service.narration.planners import Planners
 from service.narration.quiz.answer import Quizzes
 from service.narration.ranking import Rankings
@@ -37,6 +38,7 @@ from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.sensing_compared import SensingCompared
 from service.narration.sensing_facts import SensingFacts
+from service.narration.sensors_again import SensorsAgain
 from service.narration.settings import Settings
 from service.narration.sight import Sights
 from service.narration.soon import Soon
@@ -110,6 +112,8 @@ class Answers:
             SensingFacts(sayings): ("memory", "unseen", "detection", "combining"),
             PlannerDifferences(sayings): ("difference",),
             HumanDrivers(sayings): ("human",),
+            SensorsAgain(sayings): ("prevents",),
+            PlannerPartings(sayings): ("parting",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
         whys, settings = Whys(sayings), Settings(sayings)
