@@ -85,9 +85,8 @@ class Embed {
     this.road.update?.(next, this.shown);
     this.shown = next;
     this.loop.wake();
-    const { status } = past.world;
-    // Of the present nothing is decided yet: what was told last stands.
-    if (past.narration !== null || status !== "running") this.#tell(past.narration ?? t(`verdict.${status}`));
+    // Of the present nothing is decided yet.
+    this.#tell(past.narration ?? past.led ?? "");
   }
 
   /** @param {boolean} on */
