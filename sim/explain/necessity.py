@@ -85,7 +85,9 @@ def necessity(timeline: Timeline, tick: int | None = None, move: Move | None = N
         tried = _wait(timeline, state)
     met = [(each, found) for each in tried if (found := _met(each, foil)) is not None]
     if met:
-        state, hit = next(((each, found) for each, found in met if each.world.tick == state.world.tick), met[0])
+        state, hit = next(
+            ((each, found) for each, found in met if each.world.tick == state.world.tick), met[0]
+        )
         decision = timeline.decided(state) or decision
     else:
         state, hit = tried[0], ()
@@ -109,12 +111,18 @@ def _meant(timeline: Timeline, tick: int | None, move: Move | None) -> tuple[Sim
         if move is not None and decision.move not in SAID_OF.get(move, (move,)):
             raise QuestionError("not_that_move", asked=move, made=decision.move, tick=decision.tick)
         return state, decision
-    moves = tuple(each for each in MOVES if each is not Move.FORWARD) if move is None else SAID_OF.get(move, (move,))
+    moves = (
+        tuple(each for each in MOVES if each is not Move.FORWARD)
+        if move is None
+        else SAID_OF.get(move, (move,))
+    )
     state, found = latest_decision(timeline, moves)
     if found is None:
         ticks = min(timeline.tick, LOOK_BACK_TICKS)
-        raise QuestionError("no_detour", ticks=ticks) if move is None else QuestionError(
-            "never_made", move=move, ticks=ticks
+        raise (
+            QuestionError("no_detour", ticks=ticks)
+            if move is None
+            else QuestionError("never_made", move=move, ticks=ticks)
         )
     return state, found
 
