@@ -64,11 +64,30 @@ BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human", "firs
 
 `human`: whether a person would have crashed; `first_seen`: since when what was hit was seen.
 """
-PlannersName = Literal["here", "compare", "character", "own", "method", "often", "difference"]
+PlannersName = Literal[
+    "here",
+    "compare",
+    "character",
+    "own",
+    "method",
+    "often",
+    "difference",
+    "lookahead",
+    "ties",
+    "replanning",
+    "precedence",
+    "costs",
+    "stops",
+    "prediction",
+    "parting",
+]
 """What about planners is asked.
 
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
-often it arrives, crashes and gets stuck; `difference`: how some differ in general.
+often it arrives, crashes and gets stuck; `difference`: how some differ in general; `parting`: where two first
+decide otherwise on this road. How one decides always:
+`lookahead`: how far ahead; `ties`: among equals; `replanning`: how often; `precedence`: in what order it tries
+moves; `costs`: what costs what; `stops`: when it waits; `prediction`: whether it knows where others go.
 """
 HistoryName = Literal[
     "closest_call",
@@ -104,11 +123,29 @@ have made; `before_crash`: what was hit, and the ego, in the last ticks before t
 stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: the ticks with one free move or
 none.
 """
-SightName = Literal["phantoms", "missed", "truth", "range", "blind", "weather", "care", "weathers", "sensors"]
+SightName = Literal[
+    "phantoms",
+    "missed",
+    "truth",
+    "range",
+    "blind",
+    "weather",
+    "care",
+    "weathers",
+    "sensors",
+    "memory",
+    "unseen",
+    "detection",
+    "combining",
+    "prevents",
+]
 """What about sensing is asked.
 
 `truth`: what is really there; `blind`: whether it drives blind; `weather`: whether the weather made a
-difference; `care`: whether it drives otherwise in bad weather; `weathers`, `sensors`: which is best or worst.
+difference; `care`: whether it drives otherwise in bad weather; `weathers`, `sensors`: which is best or worst;
+`memory`: whether it remembers what it saw; `unseen`: what a cell out of sight counts as; `detection`: how
+surely each sensor detects a kind of things; `combining`: how several devices become one belief; `prevents`:
+which sensor would have led to the goal.
 """
 WorldName = Literal[
     "pace",
@@ -126,6 +163,19 @@ WorldName = Literal[
     "sources",
     "by_hand",
     "giving_up",
+    "tick_order",
+    "sharing",
+    "road_size",
+    "tick_length",
+    "fixtures",
+    "slippery",
+    "endings",
+    "road_made",
+    "realism",
+    "constancy",
+    "contact",
+    "points",
+    "behind",
 ]
 """What about this world and its rules is asked.
 
@@ -133,7 +183,10 @@ WorldName = Literal[
 same would happen again; `colours`: what the picture shows; `moves`: which moves there are; `movers`: how cars
 and people move; `weights`: whether a person counts more than a car; `learning`: whether it learns; `nature`:
 whether it feels; `sources`: where answers come from; `by_hand`: what happens while a person drives;
-`giving_up`: when a drive counts as stuck.
+`giving_up`: when a drive counts as stuck; `tick_order`: who moves first; `sharing`: whether others collide with
+each other; `fixtures`: traffic lights, horns and the like; `endings`: what follows an end; `road_made`: how
+roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`: whether
+there are any; `behind`: whether anything comes from behind.
 """
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
@@ -259,7 +312,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
-    "sight": QuestionTraits(("what",), ("what",), runs_episodes=True),
+    "sight": QuestionTraits(("what", "kind"), ("what",), runs_episodes=True),
     "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
 
@@ -303,7 +356,14 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "method": (frozenset(), frozenset(("planner",))),
     "often": (frozenset(),),
     "difference": (frozenset(("planners",)),),
+    **dict.fromkeys(
+        ("lookahead", "ties", "replanning", "precedence", "costs", "stops"),
+        (frozenset(), frozenset(("planner",))),
+    ),
+    "prediction": (frozenset(),),
+    "parting": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
+    "detection": (frozenset(("kind",)),),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""
@@ -322,9 +382,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "waited": (frozenset(),),
     "differed": (frozenset(),),
     "before_crash": (frozenset(),),
-    **dict.fromkeys(
-        ("lane_changes", "passed", "verdict", "stops", "lanes_used", "tight"), (frozenset(),)
-    ),
+    **dict.fromkeys(("lane_changes", "passed", "verdict", "stops", "lanes_used", "tight"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

@@ -385,10 +385,12 @@ class Sentences(RuleSentences):
         key = str(ask.what) + ("_of" if named else "") + ("" if ask.tick is None else "_tick")
         key += "" if ask.ticks is None else "_ticks"
         key += "" if ask.seconds is None else "_seconds"
+        key += "" if ask.kind is None else "_kind"
         seconds = "" if ask.seconds is None else number(ask.seconds)
+        things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
         move = "" if ask.move is None else self._word("asked", ask.move)
         return self._word(ask.about, key).format(
-            planners=planners, tick=ask.tick, ticks=ask.ticks, seconds=seconds, move=move
+            planners=planners, tick=ask.tick, ticks=ask.ticks, seconds=seconds, move=move, things=things
         )
 
     def _evaluate(self, action: Evaluate) -> str:

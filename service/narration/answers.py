@@ -9,6 +9,7 @@ from service.actions import Ask
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
+from service.narration.asked_moment import at_its_moment
 from service.narration.blame import Blames
 from service.narration.choices import Choices
 from service.narration.coming_turn import ComingTurns
@@ -27,6 +28,8 @@ from service.narration.necessity import Necessities
 from service.narration.next import Next
 from service.narration.others import Others
 from service.narration.planner_difference import PlannerDifferences
+from service.narration.planner_facts import PlannerFacts
+from service.narration.planner_parting import PlannerPartings
 from service.narration.planners import Planners
 from service.narration.quiz.answer import Quizzes
 from service.narration.ranking import Rankings
@@ -34,16 +37,18 @@ from service.narration.rules import RulesTold
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.sensing_compared import SensingCompared
+from service.narration.sensing_facts import SensingFacts
+from service.narration.sensors_again import SensorsAgain
 from service.narration.settings import Settings
 from service.narration.sight import Sights
 from service.narration.soon import Soon
 from service.narration.status import Help, Status
 from service.narration.stretches import Stretches
 from service.narration.talk import OpenQuestion, RecentChanges
-from service.narration.asked_moment import at_its_moment
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.narration.world import Worlds
+from service.narration.world_facts import WorldFacts
 from service.narration.world_rules import WorldRules
 from service.sessions.facts import Advised, Answerable, Asked
 from sim.explain import QuestionError
@@ -60,6 +65,26 @@ RULES_OF_THE_WORLD: Final = (
     "giving_up",
 )
 """What is asked of this world and holds in every drive."""
+
+FACTS_OF_THE_WORLD: Final = (
+    "tick_order",
+    "sharing",
+    "road_size",
+    "tick_length",
+    "fixtures",
+    "slippery",
+    "endings",
+    "road_made",
+    "realism",
+    "constancy",
+    "contact",
+    "points",
+    "behind",
+)
+"""What is asked of how this world is made."""
+
+FACTS_OF_PLANNERS: Final = ("lookahead", "ties", "replanning", "precedence", "costs", "stops", "prediction")
+"""What is asked of how a planner decides always."""
 
 
 class Answers:
@@ -82,8 +107,13 @@ class Answers:
             ComingTurns(sayings): ("next_stop", "next_change"),
             SensingCompared(sayings): ("care", "weathers", "sensors"),
             WorldRules(sayings): RULES_OF_THE_WORLD,
+            WorldFacts(sayings): FACTS_OF_THE_WORLD,
+            PlannerFacts(sayings): FACTS_OF_PLANNERS,
+            SensingFacts(sayings): ("memory", "unseen", "detection", "combining"),
             PlannerDifferences(sayings): ("difference",),
             HumanDrivers(sayings): ("human",),
+            SensorsAgain(sayings): ("prevents",),
+            PlannerPartings(sayings): ("parting",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
         whys, settings = Whys(sayings), Settings(sayings)

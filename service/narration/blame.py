@@ -158,12 +158,16 @@ class Blames:
         if since is None:
             return self._say("first_seen", "never", who=who)
         key = "longer" if end - since > LOOK_BACK else "since"
-        seen = self._say("first_seen", key, who=who, tick=since, seconds=self._seconds(end - since, found.state))
+        seen = self._say(
+            "first_seen", key, who=who, tick=since, seconds=self._seconds(end - since, found.state)
+        )
         expected = found.expected_since
         if expected is None:
             return within([Part(0, seen), Part(1, self._say("first_seen", "not_expected"))])
         before = self._seconds(end - expected, found.state)
-        return within([Part(0, seen), Part(1, self._say("first_seen", "expected", tick=expected, seconds=before))])
+        return within(
+            [Part(0, seen), Part(1, self._say("first_seen", "expected", tick=expected, seconds=before))]
+        )
 
     def _hit(self, crash: Crash, state: SimState) -> str:
         ids = [name for name in crash.cause.ids if name != crash.explanation.decision.av]

@@ -46,7 +46,11 @@ class ComingTurns:
         key = "later" if found.after else "now"
         seconds = in_seconds(self._sayings, found.after, found.state.config)
         tick = found.state.world.tick + found.after
-        side = "" if found.move is Move.STAY else self._say("sides", "left" if found.move.offset[0] < 0 else "right")
+        side = (
+            ""
+            if found.move is Move.STAY
+            else self._say("sides", "left" if found.move.offset[0] < 0 else "right")
+        )
         told = [Part(0, self._say(table, key, seconds=seconds, tick=tick, side=side))]
         if found.detour is not None and found.detour.ids:
             a = self._sayings.say("words", "a", kind_of(found.detour.ids[0]))

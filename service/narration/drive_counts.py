@@ -77,7 +77,9 @@ class DriveCounts:
 
     def _last(self, stop: Stop, timeline: Timeline) -> str:
         seconds = self._seconds(stop.ticks, timeline)
-        return self._say("stops", "last", when=self._when(stop.tick, timeline), tick=stop.tick, seconds=seconds)
+        return self._say(
+            "stops", "last", when=self._when(stop.tick, timeline), tick=stop.tick, seconds=seconds
+        )
 
     def _lanes(self, found: LanesUsed, timeline: Timeline) -> str:
         """The lane of most ticks, then the others."""
@@ -93,10 +95,15 @@ class DriveCounts:
             each_s = self._seconds(ticks, timeline)
             return self._say("lanes", "alike", lanes=names, each=each_s, seconds=seconds)
         named = [
-            self._say("lanes", "other", lane=each, seconds=self._seconds(count, timeline)) for each, count in others
+            self._say("lanes", "other", lane=each, seconds=self._seconds(count, timeline))
+            for each, count in others
         ]
-        longest = self._say("lanes", "most", lane=lane, longest=self._seconds(ticks, timeline), seconds=seconds)
-        return within([Part(0, longest), Part(1, self._say("lanes", "others", lanes=self._sayings.joined(named)))])
+        longest = self._say(
+            "lanes", "most", lane=lane, longest=self._seconds(ticks, timeline), seconds=seconds
+        )
+        return within(
+            [Part(0, longest), Part(1, self._say("lanes", "others", lanes=self._sayings.joined(named)))]
+        )
 
     def _tight(self, found: TightMoments, first: dict[str, str]) -> str:
         """Whether there were such moments, and at which ticks."""
@@ -108,7 +115,9 @@ class DriveCounts:
         told = []
         if one:
             ticks = self._ticks([each.tick for each in found.one])
-            told.append(Part(0, self._say("tight", "one" if one == 1 else "some", count=one, ticks=ticks, **first)))
+            told.append(
+                Part(0, self._say("tight", "one" if one == 1 else "some", count=one, ticks=ticks, **first))
+            )
         if none:
             ticks = self._ticks([each.tick for each in found.none])
             key = ("none_too" if one else "none") + ("" if none > 1 else "_one")
