@@ -27,4 +27,6 @@ def lanes_used(timeline: Timeline) -> LanesUsed:
     for state in timeline.between(world.episode_start, last):
         if state.world.outcome is Outcome.RUNNING:
             counts[state.world.road.cell(state.world.av)[0] + 1] += 1
-    return LanesUsed(last - world.episode_start, tuple(sorted(counts.items(), key=lambda each: (-each[1], each[0]))))
+    return LanesUsed(
+        last - world.episode_start, tuple(sorted(counts.items(), key=lambda each: (-each[1], each[0])))
+    )

@@ -1,7 +1,7 @@
 """Whether a move was needed: what straight on would have met in that tick, and how it would have ended.
 
-It is judged by what was there, whatever was seen of it. The move is compared with straight on, and straight on
-with waiting. A wait is judged as a whole: by all of its ticks, as straight on may have been shut in a later one.
+It is judged by what was there, whatever was seen of it. The move is compared with straight on, and straight
+on with waiting. A wait is judged as a whole: straight on may have been shut in a later tick of it.
 """
 
 from __future__ import annotations
@@ -75,8 +75,8 @@ class Necessity:
 def necessity(timeline: Timeline, tick: int | None = None, move: Move | None = None) -> Necessity:
     """Whether a move of the first ego was needed: that of a tick, or the latest such one.
 
-    Without a move it is the latest that was not straight on. Raises `QuestionError`: as `decision_meant` does,
-    `never_made`, `not_that_move`, and `no_detour` where every move was straight on.
+    Without a move it is the latest that was not straight on. Raises `QuestionError`: as `decision_meant`
+    does, `never_made`, `not_that_move`, and `no_detour` where every move was straight on.
     """
     state, decision = _meant(timeline, tick, move)
     foil = Move.STAY if decision.move is Move.FORWARD else Move.FORWARD
@@ -85,7 +85,9 @@ def necessity(timeline: Timeline, tick: int | None = None, move: Move | None = N
         tried = _wait(timeline, state)
     met = [(each, found) for each in tried if (found := _met(each, foil)) is not None]
     if met:
-        state, hit = next(((each, found) for each, found in met if each.world.tick == state.world.tick), met[0])
+        state, hit = next(
+            ((each, found) for each, found in met if each.world.tick == state.world.tick), met[0]
+        )
         decision = timeline.decided(state) or decision
     else:
         state, hit = tried[0], ()
@@ -109,12 +111,18 @@ def _meant(timeline: Timeline, tick: int | None, move: Move | None) -> tuple[Sim
         if move is not None and decision.move not in SAID_OF.get(move, (move,)):
             raise QuestionError("not_that_move", asked=move, made=decision.move, tick=decision.tick)
         return state, decision
-    moves = tuple(each for each in MOVES if each is not Move.FORWARD) if move is None else SAID_OF.get(move, (move,))
+    moves = (
+        tuple(each for each in MOVES if each is not Move.FORWARD)
+        if move is None
+        else SAID_OF.get(move, (move,))
+    )
     state, found = latest_decision(timeline, moves)
     if found is None:
         ticks = min(timeline.tick, LOOK_BACK_TICKS)
-        raise QuestionError("no_detour", ticks=ticks) if move is None else QuestionError(
-            "never_made", move=move, ticks=ticks
+        raise (
+            QuestionError("no_detour", ticks=ticks)
+            if move is None
+            else QuestionError("never_made", move=move, ticks=ticks)
         )
     return state, found
 

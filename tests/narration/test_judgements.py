@@ -22,7 +22,9 @@ YES_NO = {"en": ("Yes", "No"), "de": ("Ja", "Nein")}
 
 
 def driven(ticks: int, **parts: object) -> Timeline:
-    timeline = Timeline(Config(columns=6, rows=14, potholes=14, vehicles=12, pedestrians=4).with_parts(**parts))
+    timeline = Timeline(
+        Config(columns=6, rows=14, potholes=14, vehicles=12, pedestrians=4).with_parts(**parts)
+    )
     for _ in range(ticks):
         if timeline.state.world.outcome is not Outcome.RUNNING:
             break

@@ -124,7 +124,9 @@ def test_the_seconds_of_all_lanes_are_those_of_the_drive() -> None:
     timeline = driven(12, seed=3, planner="astar")
     found = lanes_used(timeline)
     assert sum(ticks for _, ticks in found.ticks) == found.driven
-    counts = [timeline.at(tick).world.road.cell(timeline.at(tick).world.av)[0] + 1 for tick in range(found.driven)]
+    counts = [
+        timeline.at(tick).world.road.cell(timeline.at(tick).world.av)[0] + 1 for tick in range(found.driven)
+    ]
     assert dict(found.ticks) == {lane: counts.count(lane) for lane in set(counts)}
     assert [ticks for _, ticks in found.ticks] == sorted((ticks for _, ticks in found.ticks), reverse=True)
     assert lanes_used(driven(0, seed=3)).ticks == ()
