@@ -120,7 +120,7 @@ each move; `waited`: how long the ego has waited; `differed`: moves of a person 
 have made; `before_crash`: what was hit, and the ego, in the last ticks before the latest crash;
 `lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went;
 `needed`: whether a move was needed, the latest that was not straight on by default; `stops`: how often it
-stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: the ticks with one free move or
+stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: ticks with one free move or
 none.
 """
 SightName = Literal[

@@ -1,4 +1,4 @@
-"""Answers that count over a drive: its stops and what they were for, its lanes, its moments with one way out."""
+"""Answers that count over a drive: stops and what they were for, lanes, moments with one way out."""
 
 from __future__ import annotations
 

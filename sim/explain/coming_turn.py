@@ -1,4 +1,4 @@
-"""When the first ego will next stop or change lanes, if its planner drives: one run to the end of the episode."""
+"""When the first ego will next stop or change lanes if its planner drives, by one run to the end."""
 
 from __future__ import annotations
 

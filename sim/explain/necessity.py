@@ -1,7 +1,7 @@
 """Whether a move was needed: what straight on would have met in that tick, and how it would have ended.
 
-It is judged by what was there, whatever was seen of it. The move is compared with straight on, and straight on
-with waiting. A wait is judged as a whole: by all of its ticks, as straight on may have been shut in a later one.
+It is judged by what was there, whatever was seen of it. The move is compared with straight on, and straight
+on with waiting. A wait is judged as a whole: straight on may have been shut in a later tick of it.
 """
 
 from __future__ import annotations
@@ -75,8 +75,8 @@ class Necessity:
 def necessity(timeline: Timeline, tick: int | None = None, move: Move | None = None) -> Necessity:
     """Whether a move of the first ego was needed: that of a tick, or the latest such one.
 
-    Without a move it is the latest that was not straight on. Raises `QuestionError`: as `decision_meant` does,
-    `never_made`, `not_that_move`, and `no_detour` where every move was straight on.
+    Without a move it is the latest that was not straight on. Raises `QuestionError`: as `decision_meant`
+    does, `never_made`, `not_that_move`, and `no_detour` where every move was straight on.
     """
     state, decision = _meant(timeline, tick, move)
     foil = Move.STAY if decision.move is Move.FORWARD else Move.FORWARD

@@ -1,7 +1,7 @@
 """The stops of the present episode: when the first ego stood, for how long, and for whom, by re-running each.
 
-A stop is made of ticks in a row in which a wait was decided. It was for what the first of them hung on: without
-that, another move would have been made.
+A stop is made of ticks in a row in which a wait was decided. It was for what the first of them hung on:
+without that, another move would have been made.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class Stops:
 
 
 def stops(timeline: Timeline) -> Stops:
-    """The stops of the present episode, each with what it was for; of very many only the latest are looked into."""
+    """The stops of the present episode, each with what it was for; of very many that of the latest."""
     world = timeline.state.world
     last = timeline.tick if world.ended is None else world.ended
     groups: list[list[SimState]] = []

@@ -1,4 +1,4 @@
-"""The ticks of the present episode in which only one move of the first ego, or none, would have met nothing."""
+"""The ticks of the present episode in which one move of the first ego, or none, would have met nothing."""
 
 from __future__ import annotations
 
