@@ -148,8 +148,6 @@ WorldName = Literal[
     "giving_up",
     "tick_order",
     "sharing",
-    "road_size",
-    "tick_length",
     "fixtures",
     "slippery",
     "endings",
@@ -343,7 +341,6 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     ),
     "prediction": (frozenset(),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
-    "detection": (frozenset(("kind",)),),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""
