@@ -137,6 +137,8 @@ class Ask:
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
         if self.about == "history" and self.kind is not None and self.what not in ("passed", "stopped"):
             raise ValueError("of the past, only what was passed and stops are asked of a kind of things")
+        if self.about == "sight" and (self.kind is None) is (self.what == "detection"):
+            raise ValueError("of sensing, detection and nothing else is asked of a kind of things")
         if self.about == "what_if" and (self.change is None) is (self.move is None):
             raise ValueError("say exactly one of 'change' and 'move'")
         if self.about == "what_if" and self.count is not None and self.change is None:

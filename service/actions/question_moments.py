@@ -52,8 +52,6 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
             "giving_up",
             "tick_order",
             "sharing",
-            "road_size",
-            "tick_length",
             "fixtures",
             "slippery",
             "endings",

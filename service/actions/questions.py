@@ -165,8 +165,6 @@ WorldName = Literal[
     "giving_up",
     "tick_order",
     "sharing",
-    "road_size",
-    "tick_length",
     "fixtures",
     "slippery",
     "endings",
@@ -363,7 +361,6 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "prediction": (frozenset(),),
     "parting": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
-    "detection": (frozenset(("kind",)),),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""

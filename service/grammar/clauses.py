@@ -68,6 +68,7 @@ class Divider:
                 before is not None
                 and (
                     self._says_twice(before, clause, parts[at])
+                    or self._hangs_on_question(before, clause, parts[at])
                     or self._may_be_negated(before, clause, parts[at])
                 )
             ):
@@ -244,6 +245,15 @@ class Divider:
             action["do"] in _COUNTING and "where" not in action and f"{action['kind']}s" in said
             for action in clause.actions
         )
+
+    def _hangs_on_question(self, before: Clause, clause: Clause, part: Fragment) -> bool:
+        """Whether a part without a verb would be done that may belong to the question before it.
+
+        "Would you have crashed with lidar and a pothole" supposes both, and asks for none of them.
+        """
+        if part.after != AND or not asks(before.actions) or asks(clause.actions) or not clause.actions:
+            return False
+        return self._composition.verb_of_its_own(part) is None
 
     def _begins_request(self, parts: Sequence[Fragment], at: int) -> bool:
         """Whether a part only begins the sentence that it stands in: "10 metres ahead, add a cone"."""

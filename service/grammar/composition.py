@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 from service.actions.table import verbs_where
-from service.grammar.fragments import BUT, PAUSE, STOP, THEN, Fragment
+from service.grammar.fragments import AND, BUT, PAUSE, STOP, THEN, Fragment
 from service.grammar.frames import Filled
 from service.grammar.noun_phrases import Amount
 from service.grammar.paths import Stretch
@@ -90,6 +90,8 @@ class Composition:
             verb = self.verb_of_its_own(part) is not None
             if own is None or (self._belongs(joint[0], parts, at) and (asks(own[1]) or not verb)):
                 continue
+            if at and part.after == AND and not verb and asks(joint[1]) and not asks(own[1]):
+                continue  # it would be done beside a question that it belongs to
             if asks(own[1]) != asks(joint[1]) and (verb or not asks(own[1])):
                 return True
             apart = at > 0 and part.after in (BUT, STOP)

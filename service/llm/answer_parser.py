@@ -15,7 +15,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 from pydantic_core import from_json
 
-from service.actions import Action, Ask, load
+from service.actions import Action, Ask, Evaluate, load
 from service.llm.failures import ModelFailure
 from service.llm.schema import FORBIDDEN, WORDS
 from sim.actions import (
@@ -102,6 +102,9 @@ def _check(action: Action, said: str) -> None:
                 raise ModelFailure("not_said")
         case Drive(ego=str(ego)) | SetMode(ego=str(ego)):
             if not _was_said(ego, said):
+                raise ModelFailure("not_said")
+        case Evaluate(scenario_name=str(name)):
+            if name.casefold() not in said.casefold():
                 raise ModelFailure("not_said")
         case Ask(change=tuple(change)):
             for inner in change:

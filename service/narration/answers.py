@@ -69,8 +69,6 @@ RULES_OF_THE_WORLD: Final = (
 FACTS_OF_THE_WORLD: Final = (
     "tick_order",
     "sharing",
-    "road_size",
-    "tick_length",
     "fixtures",
     "slippery",
     "endings",

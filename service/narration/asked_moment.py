@@ -85,8 +85,10 @@ def _says_tick(ask: Ask) -> bool:
 
 def _is_made(timeline: Timeline, tick: int, move: Move | None) -> bool:
     """Whether the decision at a tick is a move, as people call it; any is where none is named."""
+    if move is None:
+        return True
     decision = timeline.decision(tick)
-    return move is None or (decision is not None and decision.move in SAID_OF.get(move, (move,)))
+    return decision is not None and decision.move in SAID_OF.get(move, (move,))
 
 
 def _end_of_episode(timeline: Timeline, tick: int) -> int:

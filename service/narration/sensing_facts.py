@@ -19,6 +19,8 @@ from sim.types import Kind
 
 NEAR_CELLS, FAR_CELLS = 3, 10
 """Distances that chances of detection are told for."""
+ALMOST_ALL = 99.9
+"""Percent that less than all is never told to exceed."""
 
 
 class SensingFacts:
@@ -102,7 +104,7 @@ class SensingFacts:
         return " ".join(told), {"fused": fused}
 
     def _percent(self, share: float) -> str:
-        return self._sayings.number(round(100 * share, 1))
+        return self._sayings.number(round(min(100 * share, ALMOST_ALL) if share < 1 else 100, 1))
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("sensing_facts", *keys, **parts)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from service.narration.answerer import Json, not_so, plain
 from service.narration.sayings import Sayings
-from service.narration.values import value_of
 from service.sessions.facts import Asked
 from sim.explain.attribution import attribute
 from sim.plan import traits_of
@@ -30,12 +29,12 @@ class SensorsAgain:
         told = [] if found is None else [each for each in found.alternatives if each.setting == "sensor"]
         if not told or any(each.outcome is None for each in told):
             return plain(self._sayings, ask, state, not_so(self._sayings, "not_again", {}))
-        good = [value_of(self._sayings, "sensor", each.value) for each in told if each.avoids]
-        bad = [value_of(self._sayings, "sensor", each.value) for each in told if not each.avoids]
+        good = [self._say("with", each.value) for each in told if each.avoids]
+        bad = [self._say("with", each.value) for each in told if not each.avoids]
         key = "none" if not good else "some" if bad else "all"
         text = self._say(key, good=self._sayings.joined(good), bad=self._sayings.joined(bad))
         facts = [{"sensor": each.value, "outcome": each.outcome, "ticks": each.ticks} for each in told]
         return plain(self._sayings, ask, state, text) | {"what": ask.what, "driven_again": facts}
 
-    def _say(self, key: str, **parts: object) -> str:
-        return self._sayings.say("sight", "prevents", key, **parts)
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("sight", "prevents", *keys, **parts)

@@ -1,4 +1,4 @@
-"""Answers about what this world is: its size and clock, who moves when, what touches, how drives end."""
+"""Answers about what this world is: who moves when, what touches, how drives end."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sim.types import KINDS, PLACEABLE, Kind
 
 
 class WorldFacts:
-    """Answers to "who moves first?", "how wide is the road?", "are there traffic lights?"."""
+    """Answers to "who moves first?", "are there traffic lights?"."""
 
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
@@ -27,8 +27,6 @@ class WorldFacts:
         tell = {
             "tick_order": self._tick_order,
             "sharing": self._sharing,
-            "road_size": self._road_size,
-            "tick_length": self._tick_length,
             "fixtures": self._fixtures,
             "slippery": self._slippery,
             "endings": self._endings,
@@ -54,22 +52,6 @@ class WorldFacts:
 
     def _sharing(self, state: SimState) -> tuple[str, Json]:  # noqa: ARG002 -- it is the same of every session
         return self._say("sharing"), {}
-
-    def _road_size(self, state: SimState) -> tuple[str, Json]:
-        road, cell_m = state.world.road, state.config.cell_m
-        number = self._sayings.number
-        text = self._say(
-            "road_size",
-            columns=road.columns,
-            rows=road.rows,
-            cell=number(cell_m),
-            length=number(road.rows * cell_m),
-        )
-        return text, {"columns": road.columns, "rows": road.rows, "cell_m": cell_m}
-
-    def _tick_length(self, state: SimState) -> tuple[str, Json]:
-        seconds = state.config.step_seconds
-        return self._say("tick_length", seconds=self._sayings.number(seconds)), {"seconds": seconds}
 
     def _fixtures(self, state: SimState) -> tuple[str, Json]:  # noqa: ARG002 -- it is the same of every session
         return self._say("fixtures"), {}
@@ -98,7 +80,7 @@ class WorldFacts:
         config = state.config
         told = [Part(0, self._say("road_made", "seed", seed=config.seed))]
         if config.layout is not None:
-            family = self._sayings.say("settings", "choices", "layout", config.layout)
+            family = self._sayings.say("settings", "values", "layout", config.layout)
             told.append(Part(0, self._say("road_made", "family", family=family)))
         things = [said for kind in PLACEABLE if (said := self._drawn(kind, state))]
         if things:

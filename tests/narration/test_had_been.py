@@ -62,6 +62,25 @@ def test_the_answer_is_what_a_session_with_that_setting_comes_to(code: str) -> N
     assert 0 < arrived < 16
 
 
+def test_several_settings_at_once_are_what_a_session_with_them_comes_to() -> None:
+    change = (Set(parameter="sensor", value="lidar"), Set(parameter="weather", value="clear"))
+    words = set()
+    for timeline in crashes(4):
+        state = SimState.start(timeline.config.with_parts(sensor="lidar", weather="clear"))
+        while state.world.outcome is Outcome.RUNNING:
+            state = step(state).state
+        for supposes, agreed in (("fails", Outcome.CRASH), ("arrives", Outcome.SUCCESS)):
+            question = Asked(Ask(about="what_if", change=change), timeline, supposes)
+            answer = Narrator.load().answer(question)
+            facts = answer["had_been"]
+            assert facts["settings"] == {"sensor": "lidar", "weather": "clear"}
+            assert (facts["outcome"], facts["ticks"]) == (state.world.outcome, state.world.tick)
+            word = "Yes." if state.world.outcome is agreed else "No."
+            assert answer["text"].startswith(f"{word} Had the sensor been lidar and the weather been clear")
+            words.add(word)
+    assert words == {"Yes.", "No."}
+
+
 def test_what_would_have_been_seen_is_what_the_sensor_sees_on_that_drive() -> None:
     seen = unseen = 0
     for timeline in crashes(8):
