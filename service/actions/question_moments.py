@@ -33,7 +33,7 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
         ("history", what): "decision"
         for what in ("seen", "similar", "choices", "runner_up", "scores", "needed")
     },
-    **{("history", what): "state" for what in ("waited", "passed", "stops", "lanes_used")},
+    **{("history", what): "state" for what in ("waited", "passed", "stopped", "lanes_used")},
     **{("planners", what): "decision" for what in _OF_A_DECISION},
     **{("planners", what): "none" for what in get_args(PlannersName) if what not in _OF_A_DECISION},
     **{("sight", what): "none" for what in ("detection", "combining", "memory", "unseen")},

@@ -108,7 +108,7 @@ HistoryName = Literal[
     "passed",
     "verdict",
     "needed",
-    "stops",
+    "stopped",
     "lanes_used",
     "tight",
 ]
@@ -119,7 +119,7 @@ have cost against the quickest way; `runner_up`: the second best move of a decis
 each move; `waited`: how long the ego has waited; `differed`: moves of a person that the planner would not
 have made; `before_crash`: what was hit, and the ego, in the last ticks before the latest crash;
 `lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went;
-`needed`: whether a move was needed, the latest that was not straight on by default; `stops`: how often it
+`needed`: whether a move was needed, the latest that was not straight on by default; `stopped`: how often it
 stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: ticks with one free move or
 none.
 """
@@ -379,7 +379,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "waited": (frozenset(),),
     "differed": (frozenset(),),
     "before_crash": (frozenset(),),
-    **dict.fromkeys(("lane_changes", "passed", "verdict", "stops", "lanes_used", "tight"), (frozenset(),)),
+    **dict.fromkeys(("lane_changes", "passed", "verdict", "stopped", "lanes_used", "tight"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

@@ -207,9 +207,9 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "history", "what": what, "ticks": 3}
     for what in ("waited", "differed", "before_crash", "lane_changes", "passed", "verdict"):
         yield {"do": "ask", "about": "history", "what": what}
-    for what in ("stops", "lanes_used", "tight"):
+    for what in ("stopped", "lanes_used", "tight"):
         yield {"do": "ask", "about": "history", "what": what}
-    for what in ("passed", "stops"):
+    for what in ("passed", "stopped"):
         yield {"do": "ask", "about": "history", "what": what, "kind": "pedestrian"}
     yield {"do": "ask", "about": "history", "what": "since", "seconds": 2.5}
     yield {"do": "ask", "about": "why", "move": "left", "instead": "right"}

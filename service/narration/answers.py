@@ -100,7 +100,7 @@ class Answers:
             Soon(sayings): ("risk", "coming"),
             Moments(sayings): ("riskiest", "similar"),
             Courses(sayings): ("lane_changes", "passed", "verdict"),
-            DriveCounts(sayings): ("stops", "lanes_used", "tight"),
+            DriveCounts(sayings): ("stopped", "lanes_used", "tight"),
             Necessities(sayings): ("needed",),
             ComingTurns(sayings): ("next_stop", "next_change"),
             SensingCompared(sayings): ("care", "weathers", "sensors"),

@@ -33,7 +33,7 @@ class DriveCounts:
         """See `Answerer.answer`."""
         ask, timeline = asked.ask, asked.timeline
         match ask.what:
-            case "stops":
+            case "stopped":
                 found = stops(timeline)
                 kind = None if ask.kind is None else Kind(ask.kind)
                 text, facts = self._stops(found, kind, timeline), stops_json(found)

@@ -62,7 +62,7 @@ def test_whether_a_move_was_needed_is_told_first_and_turns_round(code: str) -> N
 
 def test_the_stop_that_is_asked_about_is_judged() -> None:
     timeline = driven(30, seed=3, planner="rules", attentive=0.0)
-    stop = answer(timeline, about="history", what="stops")["stops"][0]
+    stop = answer(timeline, about="history", what="stopped")["stops"][0]
     assert stop["ticks"] > 1
     told = answer(timeline, about="history", what="needed", move=Move.STAY, tick=stop["tick"] + 1)
     assert told["at_tick"] == stop["tick"] + 1
@@ -74,7 +74,7 @@ def test_the_stop_that_is_asked_about_is_judged() -> None:
 
 
 @pytest.mark.parametrize("code", NARRATORS)
-@pytest.mark.parametrize("what", ["stops", "lanes_used", "tight"])
+@pytest.mark.parametrize("what", ["stopped", "lanes_used", "tight"])
 def test_what_is_counted_is_short_and_before_a_drive_nothing(code: str, what: str) -> None:
     texts = set()
     for seed in range(8):
@@ -91,7 +91,7 @@ def test_stops_are_counted_by_what_they_were_for() -> None:
     counted = 0
     for seed in range(8):
         timeline = driven(30, seed=seed, planner="rules", attentive=0.0)
-        found = answer(timeline, about="history", what="stops", kind="vehicle")
+        found = answer(timeline, about="history", what="stopped", kind="vehicle")
         cars = [each for each in found["stops"] if any(id.startswith("vehicle") for id in each["ids"])]
         if cars:
             assert found["text"].startswith(f"Of {len(found['stops'])} stops so far {len(cars)} were")
