@@ -29,8 +29,11 @@ _OF: Final[Mapping[str, Moment]] = {
 """By kind of question; the state for those that are not listed."""
 
 _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
-    **{("history", what): "decision" for what in ("seen", "similar", "choices", "runner_up", "scores")},
-    **{("history", what): "state" for what in ("waited", "passed")},
+    **{
+        ("history", what): "decision"
+        for what in ("seen", "similar", "choices", "runner_up", "scores", "needed")
+    },
+    **{("history", what): "state" for what in ("waited", "passed", "stops", "lanes_used")},
     **{("planners", what): "decision" for what in _OF_A_DECISION},
     **{("planners", what): "none" for what in get_args(PlannersName) if what not in _OF_A_DECISION},
     **{("sight", what): "none" for what in ("detection", "combining", "memory", "unseen")},
@@ -61,6 +64,8 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
         )
     },
     ("world", "harm"): "drive",
+    ("sight", "prevents"): "drive",
+    ("planners", "parting"): "drive",
 }
 """By kind and `what`, where that is another one."""
 

@@ -15,6 +15,7 @@ from service.grammar.frames import Filled
 from service.grammar.lattice import Edge
 from service.grammar.lexicon import Sense
 from service.grammar.noun_phrases import Amount
+from service.grammar.repetition import MAX_REPEATED
 from sim.types import Kind, ego_id, is_ego, kind_of
 
 _ABSENT = object()
@@ -198,6 +199,10 @@ class _Maker:
                 return self._relative(name)
             case "parts":
                 return self.parts()
+            case "moves":
+                return self._moves()
+            case "settings":
+                return self._settings()
             case "planners":
                 return self._planners(attribute) or _ABSENT
             case "eval_scenario":
@@ -286,6 +291,23 @@ class _Maker:
         if (len(things) != 1 or things[0].count != 1) not in edge.sense.value.many:
             raise CannotBuild("one becomes one, many become many")
         return str(edge.sense.value.kind)
+
+    def _moves(self) -> list[dict[str, Any]]:
+        """A move as often as it was said to be made, each time as an action."""
+        moves = self._filled.of("dir", "dir_bare", "stay_word")
+        (times,) = self._filled.of("made_times")
+        if len(moves) != 1 or not 1 <= times.sense.value <= MAX_REPEATED:
+            raise CannotBuild("not one move, or too often")
+        (edge,) = moves
+        move = "stay" if edge.concept == "stay_word" else edge.sense.value
+        return [{"do": "drive", "move": move}] * times.sense.value
+
+    def _settings(self) -> list[dict[str, Any]]:
+        """The settings that were said, in order, each as an action that sets it."""
+        said = sorted(self._filled.of(*_SETTINGS), key=lambda edge: edge.start)
+        if len({edge.concept for edge in said}) < len(said):
+            raise CannotBuild("two values for one setting")
+        return [{"do": "set", "parameter": edge.concept, "value": edge.sense.value} for edge in said]
 
     def _planners(self, attribute: str) -> list[Any]:
         """The planners in the order said; as `pair` or `reversed` there must be two of them."""

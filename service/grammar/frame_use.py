@@ -35,6 +35,8 @@ _MADE_OF = {
     "eval_scenario": _PARTS,
     "eval_vary": _PARTS,
     "planners": frozenset(("planner",)),
+    "moves": frozenset(("dir", "dir_bare", "stay_word", "made_times")),
+    "settings": frozenset(("weather", "time_of_day", "traffic", "planner", "sensor", "dynamics")),
     "asked_move": frozenset(("dir", "stay_word")),
     "one": frozenset(("thing",)),
     "many": frozenset(("thing",)),

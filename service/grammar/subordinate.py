@@ -172,7 +172,9 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
             past = _is_past(lattice, (first, last), (start, end))
             if (moved := _had_moved(lattice, (start, end), found)) is not None:
                 return Clause(begin, stop, Filled(_FRAME, []), [moved])
-            return _what_if(begin, stop, found, past=past)
+            clause = _what_if(begin, stop, found, past=past)
+            supposes = _end_supposed(lattice, (first, last), (start, end))
+            return replace(clause, filled=Filled(replace(_FRAME, supposes=supposes), []))
         failed = failed or found
         if last == end and cut is None:
             cut = _before_question(divided)
@@ -194,6 +196,12 @@ def _had_moved(
     if all(edge.concept != HAD_MOVED for edge in lattice.between(*whole)):
         return None
     return {"do": "ask", "about": WHAT_IF, "move": change[0]["move"]}
+
+
+def _end_supposed(lattice: Lattice, supposed: tuple[int, int], whole: tuple[int, int]) -> str | None:
+    """How the question beside what is supposed takes it to end; None where it asks what happens."""
+    asked = (_longest(lattice, at, THEN_WHAT) for at in range(*whole) if not supposed[0] <= at < supposed[1])
+    return next((str(edge.sense.value) for edge in asked if edge is not None and edge.sense.value), None)
 
 
 def _is_past(lattice: Lattice, supposed: tuple[int, int], whole: tuple[int, int]) -> bool:

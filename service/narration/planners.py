@@ -54,6 +54,9 @@ _AGREES: Final[Mapping[str | None, Callable[[PlannersHere, PlannerDrive], bool |
 }
 """What may be asked of one planner with yes or no, by what the question supposes."""
 
+_ALL: Final = {"all_crash": Outcome.CRASH, "all_arrive": Outcome.SUCCESS}
+"""What may be asked of all of them with yes or no."""
+
 
 def _begins(ask: Ask, timeline: Timeline) -> int | None:
     """The past tick from which planners are run: the one asked about, else the start of what has ended."""
@@ -113,6 +116,8 @@ class Planners:
 
     def _agreed(self, found: PlannersHere, asked: Asked) -> str:
         """Yes or no, where it was asked whether one planner does something; empty where it cannot be said."""
+        if asked.supposes in _ALL:
+            return self._all_agreed(found, _ALL[asked.supposes], asked)
         if len(found.others) != 1 or asked.supposes not in _AGREES:
             return ""
         drive = found.others[0]
@@ -120,13 +125,21 @@ class Planners:
         word = None if agrees is None else yes_and_no(self._sayings, asked)["yes" if agrees else "no"]
         return "" if word is None else self._say("judged", "good", yes=word)
 
+    def _all_agreed(self, found: PlannersHere, outcome: Outcome, asked: Asked) -> str:
+        """Yes where all of them end so, no where one does not; empty where that is left to chance."""
+        ends = [_ends_in(outcome)(found, each) for each in (found.own, *found.others)]
+        if False not in ends and None in ends:
+            return ""
+        word = yes_and_no(self._sayings, asked)["no" if False in ends else "yes"]
+        return self._say("judged", "good", yes=word)
+
     def _here(
         self, found: PlannersHere, first: list[Part], parting: Parting | None, *, best: bool, past: bool
     ) -> str:
         """After `first`, a line for each way to drive; where they are too many words, one for each end."""
         parts = first + self._lines(found, best=best, briefly=False, past=past)
         if parting is not None:
-            parts.append(Part(1, self._parting(parting, found.state, past=past)))
+            parts.append(Part(1, self.parting(parting, found.state, past=past)))
         if sum(len(part.text.split()) for part in parts) > MOST_WORDS:
             parts = first + self._lines(found, best=best, briefly=True)
         if best and not past and len(found.others) == 1:
@@ -161,7 +174,12 @@ class Planners:
         key = "line_brief" if briefly else "line"
         return capital(self._say(key, planners=names, what=what, end=self._end(first.foresight)))
 
-    def _parting(self, parting: Parting, state: SimState, *, past: bool) -> str:
+    def end_line(self, drive: PlannerDrive) -> str:
+        """How a planner ends, as a line of its own."""
+        names = self._sayings.planner(drive.planner)
+        return capital(self._say("line_brief", planners=names, end=self._end(drive.foresight)))
+
+    def parting(self, parting: Parting, state: SimState, *, past: bool) -> str:
         """Where two planners part, and what each makes of the other's move."""
         ahead = parting.tick - state.world.tick
         parted = self._say(

@@ -8,10 +8,13 @@ from service.contract.encode.forecast import what_if_json
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds, likely
 from service.narration.foils import Foils
+from service.narration.futures_told import yes_and_no
 from service.narration.had_been import HadBeen
+from service.narration.moves_asked import MovesAsked
 from service.narration.naming import Naming
 from service.narration.rearranged import supposed_rearranged
 from service.narration.sayings import Sayings
+from service.narration.supposed_ends import agrees
 from service.narration.values import value_of
 from service.refusals import refusals
 from service.sessions.facts import Asked
@@ -54,6 +57,7 @@ class WhatIfs:
         self._conditions = Conditions(sayings)
         self._foils = Foils(sayings)
         self._had_been = HadBeen(sayings)
+        self._in_order = MovesAsked(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`. What cannot be done is answered too, and nothing is run for it."""
@@ -68,6 +72,9 @@ class WhatIfs:
         if past:
             return plain(self._sayings, ask, timeline.state, past) | facts
         tick = moment_of(timeline, actions) if ask.tick is None else ask.tick
+        moves = [each.move for each in actions if isinstance(each, Drive)]
+        if len(moves) == len(actions) and len(set(moves)) > 1:
+            return self._in_order.answer(asked, moves, tick)
         try:
             found = what_if(timeline, actions, tick)
         except QuestionError as error:
@@ -77,9 +84,18 @@ class WhatIfs:
             told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=message))
             return told | {"evidence": {"code": error.category, "field": error.field, "message": message}}
         text = self.text(ask, found, again=ask.tick is None and tick is not None)
+        if first := self._agreed(asked, found):
+            text = f"{first} {text}"
         if len(imagined_actions(change)) < len(change):
             text = f"{text} {self._say('rest_aside')}"
         return plain(self._sayings, ask, found.state, text) | what_if_json(change, found)
+
+    def _agreed(self, asked: Asked, found: WhatIf) -> str:
+        """Yes or no, where that was asked of how it ends, and neither hangs on chance."""
+        agreed = None if found.by_chance else agrees(asked.supposes, found.changed.outcome)
+        if agreed is None:
+            return ""
+        return self._say("yes_no", word=yes_and_no(self._sayings, asked)["yes" if agreed else "no"])
 
     def text(self, ask: Ask, found: WhatIf, *, again: bool = False) -> str:
         """What would be, in words; `again`: a drive that has ended is looked at from an earlier tick."""

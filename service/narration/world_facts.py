@@ -63,7 +63,9 @@ class WorldFacts:
         key = "no_snow" if config.weather != "snow" else "yes" if config.slips else "snow"
         told = [self._say("slippery", key, percent=percent)]
         if key == "no_snow":
-            told.append(self._say("slippery", "would" if config.slip_probability else "never", percent=percent))
+            told.append(
+                self._say("slippery", "would" if config.slip_probability else "never", percent=percent)
+            )
         return " ".join(told), {"slips": config.slips, "slip_probability": config.slip_probability}
 
     def _endings(self, state: SimState) -> tuple[str, Json]:

@@ -7,9 +7,9 @@ settings of what is varied. Movers that react draw as they did, so the runs diff
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 from sim import sensor_names
 from sim.config import Config
@@ -25,12 +25,9 @@ PLAIN: Final = {"weather": "clear", "time_of_day": "day"}
 
 
 @dataclass(frozen=True, slots=True)
-class Alternative:
-    """The episode with one setting otherwise."""
+class Rerun:
+    """The episode driven again with settings otherwise."""
 
-    setting: str
-    """`sensor`, `weather` or `time_of_day`"""
-    value: str
     outcome: Outcome | None
     """how the episode would have ended; None where something that was said could not be done there"""
     ticks: int
@@ -40,6 +37,15 @@ class Alternative:
     def avoids(self) -> bool:
         """Whether the vehicle would have arrived."""
         return self.outcome is Outcome.SUCCESS
+
+
+@dataclass(frozen=True, slots=True)
+class Alternative(Rerun):
+    """The episode with one setting otherwise."""
+
+    setting: str
+    """`sensor`, `weather` or `time_of_day`"""
+    value: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,21 +79,23 @@ def attribute(timeline: Timeline, tick: int | None = None) -> Attribution | None
         return None
     start = timeline.at(world.episode_start)
     found = tuple(
-        _rerun(timeline, start, world.ended, setting, value) for setting, value in _changes(state.config)
+        Alternative(again.outcome, again.ticks, setting, value)
+        for setting, value in _changes(state.config)
+        for again in [_rerun(timeline, start, world.ended, {setting: value})]
     )
     return Attribution(world.outcome, world.ended, found)
 
 
-def rerun(timeline: Timeline, setting: str, value: str, tick: int | None = None) -> Alternative | None:
-    """The one alternative with this setting; None where no failure stands. Raises `ConfigError`."""
+def rerun(timeline: Timeline, varied: Mapping[str, str], tick: int | None = None) -> Rerun | None:
+    """The episode with these settings otherwise; None where no failure stands. Raises `ConfigError`."""
     state = timeline.state if tick is None else timeline.at(tick)
     world = state.world
     if world.outcome not in (Outcome.CRASH, Outcome.STUCK) or world.ended is None:
         return None
-    return _rerun(timeline, timeline.at(world.episode_start), world.ended, setting, value)
+    return _rerun(timeline, timeline.at(world.episode_start), world.ended, varied)
 
 
-def seen_since(timeline: Timeline, setting: str, value: str, tick: int | None = None) -> int | None:
+def seen_since(timeline: Timeline, varied: Mapping[str, str], tick: int | None = None) -> int | None:
     """The tick since when what was crashed into would have been seen where it was, on the very same drive.
 
     None where it would not have been seen at the last decision, and where no crash stands.
@@ -98,12 +106,11 @@ def seen_since(timeline: Timeline, setting: str, value: str, tick: int | None = 
     if world.outcome is not Outcome.CRASH or world.ended is None or world.cause is None:
         return None
     met = [name for name in world.cause.ids if not is_ego(name)]
-    changed: dict[str, Any] = {setting: value}
     belief: Belief = NO_BELIEF
     since: int | None = None
     for before in timeline.between(world.episode_start, world.ended):
         there = before.world
-        percept, belief = perceive(there, before.config.with_parts(**changed), 0, belief)
+        percept, belief = perceive(there, before.config.with_parts(**dict(varied)), 0, belief)
         if not met or any(_missed(there, percept, name) for name in met):
             since = None
         elif since is None:
@@ -127,12 +134,12 @@ def _changes(config: Config) -> Iterator[tuple[str, str]]:
             yield setting, plain
 
 
-def _rerun(timeline: Timeline, start: SimState, end: int, setting: str, value: str) -> Alternative:
+def _rerun(timeline: Timeline, start: SimState, end: int, varied: Mapping[str, str]) -> Rerun:
     first = start.world.tick
     last = start
     try:
-        for _, tick in drive_again(timeline, start, end, (setting, value)):
+        for _, tick in drive_again(timeline, start, end, varied):
             last = tick.state
     except NotAgainError:
-        return Alternative(setting, value, None, last.world.tick - first)
-    return Alternative(setting, value, last.world.outcome, last.world.tick - first)
+        return Rerun(None, last.world.tick - first)
+    return Rerun(last.world.outcome, last.world.tick - first)

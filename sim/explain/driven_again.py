@@ -1,4 +1,4 @@
-"""An episode driven again from its own beginning, as it was or with one setting otherwise.
+"""An episode driven again from its own beginning, as it was or with some settings otherwise.
 
 What people said meanwhile is said again at the same ticks, without settings of what is varied. All that is
 drawn is drawn from the seed, so the same episode comes again where nothing is varied.
@@ -6,7 +6,7 @@ drawn is drawn from the seed, so the same episode comes again where nothing is v
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -39,16 +39,17 @@ class Replayed:
 
 
 def drive_again(
-    timeline: Timeline, start: SimState, end: int, varied: tuple[str, Any] | None = None
+    timeline: Timeline, start: SimState, end: int, varied: Mapping[str, Any] | None = None
 ) -> Iterator[tuple[SimState, StepResult]]:
     """Each tick to the end of the episode that begins in `start`, with the state before it.
 
-    `end`: the last tick whose words are said again; `varied`: a setting and its other value. Raises
-    `NotAgainError`, and `ConfigError` for a value that cannot be.
+    `end`: the last tick whose words are said again; `varied`: settings and their other values. Raises
+    `NotAgainError`, and `ConfigError` for values that cannot be.
     """
     state = start
-    if varied is not None:
-        state = replace(start, config=start.config.with_parts(**dict([varied]))).with_each_ego(
+    varied = varied or {}
+    if varied:
+        state = replace(start, config=start.config.with_parts(**varied)).with_each_ego(
             belief=NO_BELIEF
         )
     first, episode = start.world.tick, start.world.episode
@@ -56,9 +57,7 @@ def drive_again(
     while state.world.outcome is Outcome.RUNNING:
         now = state.world.tick
         for entry in said:
-            is_varied = (
-                varied is not None and isinstance(entry.action, Set) and entry.action.parameter == varied[0]
-            )
+            is_varied = isinstance(entry.action, Set) and entry.action.parameter in varied
             if entry.tick != now or is_varied:
                 continue
             try:

@@ -103,6 +103,24 @@ def planners_here(
     return PlannersHere(state, mine, tuple(drive_each(state, found, ego)), missing, ego)
 
 
+def planners_beside(
+    timeline: Timeline, names: Sequence[str], *, ego: str | None = None
+) -> PlannersHere:
+    """Two planners from the beginning of this drive on; one alone is beside the one that drives.
+
+    Raises `QuestionError`: `not_two_planners` where they are not two that there are.
+    """
+    start = driving(timeline.at(timeline.state.world.episode_start), ego)
+    asked = list(dict.fromkeys(str(canonical(name)) for name in names))
+    if len(asked) == 1:
+        asked = [planner_of(start, ego), *(name for name in asked if name != planner_of(start, ego))]
+    missing = [name for name in asked if planner_named(name) is None]
+    if missing or len(asked) != 2:
+        raise QuestionError("not_two_planners")
+    one, other = drive_each(start, asked, ego)
+    return PlannersHere(one.foresight.state, one, (other,), (), ego)
+
+
 def planner_of(state: SimState, ego: str | None = None) -> str:
     """The name of the planner that drives an ego."""
     return str(canonical(state.config_of(ego).planner))

@@ -67,7 +67,7 @@ def weather_effect(timeline: Timeline) -> WeatherEffect:
     ended, ticks = None, 0
     real = timeline.between(world.episode_start, end)
     try:
-        for before, tick in drive_again(timeline, timeline.at(world.episode_start), end, ("weather", CLEAR)):
+        for before, tick in drive_again(timeline, timeline.at(world.episode_start), end, {"weather": CLEAR}):
             there = next(real, None)
             ticks, ended = ticks + 1, tick.state.world.outcome
             if there is None and world.ended is None:

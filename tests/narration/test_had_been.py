@@ -68,8 +68,8 @@ def test_what_would_have_been_seen_is_what_the_sensor_sees_on_that_drive() -> No
         cause = timeline.state.world.cause
         assert cause is not None
         (name,) = [each for each in cause.ids if not each.startswith("av-")]
-        assert seen_since(timeline, "sensor", "perfect") == 0
-        since = seen_since(timeline, "sensor", "lidar")
+        assert seen_since(timeline, {"sensor": "perfect"}) == 0
+        since = seen_since(timeline, {"sensor": "lidar"})
         belief: object = NO_BELIEF
         for state in timeline.between(0, timeline.tick):
             config = state.config.with_parts(sensor="lidar")
@@ -97,4 +97,4 @@ def test_nothing_of_the_kind_is_told_where_nothing_failed_or_nothing_would_be_ot
     assert "had_been" not in asked(crashed, "sensor", "camera")
     assert "had_been" not in asked(crashed, "planner", "astar")
     assert "had_been" not in asked(crashed, "sensor", "sonar")
-    assert rerun(crashed, "sensor", "camera") is not None
+    assert rerun(crashed, {"sensor": "camera"}) is not None

@@ -9,7 +9,7 @@ import pytest
 
 from sim.actions import Set
 from sim.config import Config, ConfigError
-from sim.explain.attribution import attribute, rerun
+from sim.explain.attribution import Rerun, attribute, rerun
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
@@ -50,7 +50,7 @@ def test_alternatives_are_what_a_session_with_that_setting_comes_to() -> None:
             while state.world.outcome is Outcome.RUNNING:
                 state = step(state).state
             assert (each.outcome, each.ticks) == (state.world.outcome, state.world.tick)
-            assert rerun(timeline, each.setting, each.value) == each
+            assert rerun(timeline, {each.setting: each.value}) == Rerun(each.outcome, each.ticks)
         avoided += found.by_sensing
         assert all(each.avoids for each in found.avoided_by)
     assert avoided >= 4
@@ -71,7 +71,7 @@ def spoilt(seed: int) -> Timeline:
 def test_what_was_said_on_the_way_is_said_again() -> None:
     crashed = (each for each in map(spoilt, count()) if each.state.world.outcome is Outcome.CRASH)
     timeline = next(each for each in crashed if each.tick > 4)
-    clear = rerun(timeline, "weather", "clear")
+    clear = rerun(timeline, {"weather": "clear"})
     assert clear is not None
     twin = Timeline(timeline.config)
     for _ in range(3):
@@ -85,6 +85,6 @@ def test_what_was_said_on_the_way_is_said_again() -> None:
 def test_where_nothing_failed_nothing_is_attributed() -> None:
     timeline = Timeline(Config(seed=1))
     assert attribute(timeline) is None
-    assert rerun(timeline, "sensor", "lidar") is None
+    assert rerun(timeline, {"sensor": "lidar"}) is None
     with pytest.raises(ConfigError):
-        rerun(next(failures(1)), "sensor", "sonar")
+        rerun(next(failures(1)), {"sensor": "sonar"})

@@ -31,7 +31,7 @@ def test_a_failure_is_the_weathers_where_clear_weather_arrives(weather: str) -> 
         timeline = driven(60, seed=seed, sensor="camera", weather=weather, attentive=0.0)
         if timeline.state.world.outcome not in (Outcome.CRASH, Outcome.STUCK):
             continue
-        found, other = weather_effect(timeline), rerun(timeline, "weather", "clear")
+        found, other = weather_effect(timeline), rerun(timeline, {"weather": "clear"})
         assert other is not None
         assert found.clear_outcome is other.outcome
         assert found.caused is other.avoids
