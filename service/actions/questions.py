@@ -183,8 +183,8 @@ and people move; `weights`: whether a person counts more than a car; `learning`:
 whether it feels; `sources`: where answers come from; `by_hand`: what happens while a person drives;
 `giving_up`: when a drive counts as stuck; `tick_order`: who moves first; `sharing`: whether others collide with
 each other; `fixtures`: traffic lights, horns and the like; `endings`: what follows an end; `road_made`: how
-roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`: whether
-there are any; `behind`: whether anything comes from behind.
+roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`:
+whether there are any; `behind`: whether anything comes from behind.
 """
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
