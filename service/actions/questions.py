@@ -77,7 +77,7 @@ PlannersName = Literal[
     "replanning",
     "precedence",
     "costs",
-    "stops",
+    "halts",
     "prediction",
     "parting",
 ]
@@ -87,7 +87,7 @@ PlannersName = Literal[
 often it arrives, crashes and gets stuck; `difference`: how some differ in general; `parting`: where two first
 decide otherwise on this road. How one decides always:
 `lookahead`: how far ahead; `ties`: among equals; `replanning`: how often; `precedence`: in what order it tries
-moves; `costs`: what costs what; `stops`: when it waits; `prediction`: whether it knows where others go.
+moves; `costs`: what costs what; `halts`: when it waits; `prediction`: whether it knows where others go.
 """
 HistoryName = Literal[
     "closest_call",
@@ -183,8 +183,8 @@ and people move; `weights`: whether a person counts more than a car; `learning`:
 whether it feels; `sources`: where answers come from; `by_hand`: what happens while a person drives;
 `giving_up`: when a drive counts as stuck; `tick_order`: who moves first; `sharing`: whether others collide with
 each other; `fixtures`: traffic lights, horns and the like; `endings`: what follows an end; `road_made`: how
-roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`: whether
-there are any; `behind`: whether anything comes from behind.
+roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`:
+whether there are any; `behind`: whether anything comes from behind.
 """
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
@@ -355,7 +355,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "often": (frozenset(),),
     "difference": (frozenset(("planners",)),),
     **dict.fromkeys(
-        ("lookahead", "ties", "replanning", "precedence", "costs", "stops"),
+        ("lookahead", "ties", "replanning", "precedence", "costs", "halts"),
         (frozenset(), frozenset(("planner",))),
     ),
     "prediction": (frozenset(),),

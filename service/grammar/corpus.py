@@ -226,8 +226,9 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "outlook", "what": "safe", "move": move}
     for about in ("outlook", "blame", "planners", "sight", "world"):
         for what in WHATS[about]:
-            if what not in ("safe", "coming", "difference"):
+            if what not in ("safe", "coming", "difference", "detection"):
                 yield {"do": "ask", "about": about, "what": what}
+    yield {"do": "ask", "about": "sight", "what": "detection", "kind": "pedestrian"}
     yield {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3}
     yield {"do": "ask", "about": "outlook", "what": "coming", "seconds": 2.5}
     for what in (*WHATS["blame"], "own"):

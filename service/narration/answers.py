@@ -81,7 +81,7 @@ FACTS_OF_THE_WORLD: Final = (
 )
 """What is asked of how this world is made."""
 
-FACTS_OF_PLANNERS: Final = ("lookahead", "ties", "replanning", "precedence", "costs", "stops", "prediction")
+FACTS_OF_PLANNERS: Final = ("lookahead", "ties", "replanning", "precedence", "costs", "halts", "prediction")
 """What is asked of how a planner decides always."""
 
 

@@ -40,9 +40,9 @@ class PlannerFacts:
         ask, state = asked.ask, asked.timeline.state
         name = canonical(ask.planner or planner_of(state))
         if name not in MANNERS:
-            text, facts = self._say("unknown", planner=self._sayings.planner(name)), {}
-        else:
-            text, facts = self._told(str(ask.what), name, state)
+            text = self._say("unknown", planner=self._sayings.planner(name))
+            return plain(self._sayings, ask, state, text) | {"what": ask.what, "planner": name}
+        text, facts = self._told(str(ask.what), name, state)
         return plain(self._sayings, ask, state, text) | {"what": ask.what, "planner": name} | facts
 
     def _told(self, what: str, name: str, state: SimState) -> tuple[str, Json]:

@@ -1,4 +1,4 @@
-"""Answers about sensing in general: what is remembered, what unseen cells count as, how surely kinds are detected."""
+"""Answers about sensing in general: memory, cells out of sight, chances of detection."""
 
 from __future__ import annotations
 

@@ -45,9 +45,9 @@ def test_who_brakes_is_said_where_somebody_does() -> None:
 
 def test_the_road_is_slippery_on_snow_with_a_chance_alone() -> None:
     told = {
-        (weather, chance): answer(
-            driven(0, weather=weather, slip_probability=chance), "world", "slippery"
-        )["text"]
+        (weather, chance): answer(driven(0, weather=weather, slip_probability=chance), "world", "slippery")[
+            "text"
+        ]
         for weather in ("snow", "rain")
         for chance in (0.0, 0.25)
     }
