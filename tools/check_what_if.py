@@ -186,7 +186,9 @@ def check(narrator: Narrator, draw: random.Random, timeline: Timeline, figures: 
             figures.wrong.append(f"{came}: {what}")
     if answer["same_road"]:
         check_difference(answer["first_difference"], real, changed, what, figures)
-    if "How others react is left to chance" in answer["text"]:  # where others react by chance, it tells the chance of the outcome
+    if (
+        "How others react is left to chance" in answer["text"]
+    ):  # where others react by chance, it tells the chance of the outcome
         figures.cases["told as a chance"] += 1
     elif "would change nothing" not in answer["text"]:
         seconds = fork.state.config.step_seconds * len(changed.path)

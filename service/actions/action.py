@@ -135,8 +135,8 @@ class Ask:
             raise ValueError(f"'{self.parameter}' has options and no value")
         if self.about == "scene" and self.count is not None and (self.count != 1 or self.kind is None):
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
-        if self.about == "history" and self.kind is not None and self.what != "passed":
-            raise ValueError("of the past, only what was passed is asked of a kind of things")
+        if self.about == "history" and self.kind is not None and self.what not in ("passed", "stops"):
+            raise ValueError("of the past, only what was passed and stops are asked of a kind of things")
         if self.about == "what_if" and (self.change is None) is (self.move is None):
             raise ValueError("say exactly one of 'change' and 'move'")
         if self.about == "what_if" and self.count is not None and self.change is None:

@@ -8,13 +8,17 @@ some name a tick of their own.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final, Literal
+from typing import Final, Literal, get_args
 
 from service.actions.action import Ask
+from service.actions.questions import PlannersName
 
 Moment = Literal["decision", "state", "drive", "present", "none"]
 """`decision`: the one taken at the tick; `state`: how it stood then; `drive`: the whole episode of the tick;
 `present`: now, whatever is looked at; `none`: no moment at all, or one that the question brings along."""
+
+_OF_A_DECISION: Final = ("here", "compare", "own")
+"""What of planners is asked of one decision; all else is asked of planners in general."""
 
 _OF: Final[Mapping[str, Moment]] = {
     **dict.fromkeys(("why", "why_not", "what_if", "other"), "decision"),
@@ -25,10 +29,14 @@ _OF: Final[Mapping[str, Moment]] = {
 """By kind of question; the state for those that are not listed."""
 
 _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
-    **{("history", what): "decision" for what in ("seen", "similar", "choices", "runner_up", "scores")},
-    **{("history", what): "state" for what in ("waited", "passed")},
-    **{("planners", what): "decision" for what in ("here", "compare", "own")},
-    **{("planners", what): "none" for what in ("character", "method", "often", "difference")},
+    **{
+        ("history", what): "decision"
+        for what in ("seen", "similar", "choices", "runner_up", "scores", "needed")
+    },
+    **{("history", what): "state" for what in ("waited", "passed", "stops", "lanes_used")},
+    **{("planners", what): "decision" for what in _OF_A_DECISION},
+    **{("planners", what): "none" for what in get_args(PlannersName) if what not in _OF_A_DECISION},
+    **{("sight", what): "none" for what in ("detection", "combining", "memory", "unseen")},
     **{
         ("world", what): "none"
         for what in (
@@ -42,6 +50,19 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
             "sources",
             "by_hand",
             "giving_up",
+            "tick_order",
+            "sharing",
+            "road_size",
+            "tick_length",
+            "fixtures",
+            "slippery",
+            "endings",
+            "road_made",
+            "realism",
+            "constancy",
+            "contact",
+            "points",
+            "behind",
         )
     },
     ("world", "harm"): "drive",

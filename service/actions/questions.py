@@ -49,21 +49,45 @@ OutlookName = Literal[
     "matters",
     "risk",
     "coming",
+    "next_stop",
+    "next_change",
 ]
 """What of the time ahead is asked about.
 
 `way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is;
 `free`: which moves meet nothing now; `matters`: what the coming move hangs on; `risk`: how safe it is now;
-`coming`: what happens in the next ticks or seconds.
+`coming`: what happens in the next ticks or seconds; `next_stop`, `next_change`: when the vehicle will next
+stop or change lanes.
 """
-BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human"]
-"""What about a crash is asked. `human`: whether a person would have crashed."""
-PlannersName = Literal["here", "compare", "character", "own", "method", "often", "difference", "parting"]
+BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human", "first_seen"]
+"""What about a crash is asked.
+
+`human`: whether a person would have crashed; `first_seen`: since when what was hit was seen.
+"""
+PlannersName = Literal[
+    "here",
+    "compare",
+    "character",
+    "own",
+    "method",
+    "often",
+    "difference",
+    "lookahead",
+    "ties",
+    "replanning",
+    "precedence",
+    "costs",
+    "stops",
+    "prediction",
+    "parting",
+]
 """What about planners is asked.
 
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
 often it arrives, crashes and gets stuck; `difference`: how some differ in general; `parting`: where two first
-decide otherwise on this road.
+decide otherwise on this road. How one decides always:
+`lookahead`: how far ahead; `ties`: among equals; `replanning`: how often; `precedence`: in what order it tries
+moves; `costs`: what costs what; `stops`: when it waits; `prediction`: whether it knows where others go.
 """
 HistoryName = Literal[
     "closest_call",
@@ -83,6 +107,10 @@ HistoryName = Literal[
     "lane_changes",
     "passed",
     "verdict",
+    "needed",
+    "stops",
+    "lanes_used",
+    "tight",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -90,13 +118,33 @@ HistoryName = Literal[
 have cost against the quickest way; `runner_up`: the second best move of a decision; `scores`: what it made of
 each move; `waited`: how long the ego has waited; `differed`: moves of a person that the planner would not
 have made; `before_crash`: what was hit, and the ego, in the last ticks before the latest crash;
-`lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went.
+`lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went;
+`needed`: whether a move was needed, the latest that was not straight on by default; `stops`: how often it
+stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: ticks with one free move or
+none.
 """
-SightName = Literal["phantoms", "missed", "truth", "range", "blind", "weather", "care", "weathers", "sensors", "prevents"]
+SightName = Literal[
+    "phantoms",
+    "missed",
+    "truth",
+    "range",
+    "blind",
+    "weather",
+    "care",
+    "weathers",
+    "sensors",
+    "memory",
+    "unseen",
+    "detection",
+    "combining",
+    "prevents",
+]
 """What about sensing is asked.
 
 `truth`: what is really there; `blind`: whether it drives blind; `weather`: whether the weather made a
-difference; `care`: whether it drives otherwise in bad weather; `weathers`, `sensors`: which is best or worst; `prevents`:
+difference; `care`: whether it drives otherwise in bad weather; `weathers`, `sensors`: which is best or worst;
+`memory`: whether it remembers what it saw; `unseen`: what a cell out of sight counts as; `detection`: how
+surely each sensor detects a kind of things; `combining`: how several devices become one belief; `prevents`:
 which sensor would have led to the goal.
 """
 WorldName = Literal[
@@ -115,6 +163,19 @@ WorldName = Literal[
     "sources",
     "by_hand",
     "giving_up",
+    "tick_order",
+    "sharing",
+    "road_size",
+    "tick_length",
+    "fixtures",
+    "slippery",
+    "endings",
+    "road_made",
+    "realism",
+    "constancy",
+    "contact",
+    "points",
+    "behind",
 ]
 """What about this world and its rules is asked.
 
@@ -122,7 +183,10 @@ WorldName = Literal[
 same would happen again; `colours`: what the picture shows; `moves`: which moves there are; `movers`: how cars
 and people move; `weights`: whether a person counts more than a car; `learning`: whether it learns; `nature`:
 whether it feels; `sources`: where answers come from; `by_hand`: what happens while a person drives;
-`giving_up`: when a drive counts as stuck.
+`giving_up`: when a drive counts as stuck; `tick_order`: who moves first; `sharing`: whether others collide with
+each other; `fixtures`: traffic lights, horns and the like; `endings`: what follows an end; `road_made`: how
+roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`: whether
+there are any; `behind`: whether anything comes from behind.
 """
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
@@ -231,7 +295,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
     "history": QuestionTraits(
-        ("what", "tick", "until", "ticks", "seconds", "count", "kind"), ("what",), runs_episodes=True
+        ("what", "move", "tick", "until", "ticks", "seconds", "count", "kind"), ("what",), runs_episodes=True
     ),
     "styles": QuestionTraits(),
     "changes": QuestionTraits(("count", "tick")),
@@ -248,7 +312,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
-    "sight": QuestionTraits(("what",), ("what",), runs_episodes=True),
+    "sight": QuestionTraits(("what", "kind"), ("what",), runs_episodes=True),
     "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
 
@@ -276,6 +340,8 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "free": (frozenset(),),
     "matters": (frozenset(),),
     "risk": (frozenset(),),
+    "next_stop": (frozenset(),),
+    "next_change": (frozenset(),),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),
     **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
@@ -290,8 +356,14 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "method": (frozenset(), frozenset(("planner",))),
     "often": (frozenset(),),
     "difference": (frozenset(("planners",)),),
+    **dict.fromkeys(
+        ("lookahead", "ties", "replanning", "precedence", "costs", "stops"),
+        (frozenset(), frozenset(("planner",))),
+    ),
+    "prediction": (frozenset(),),
     "parting": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
+    "detection": (frozenset(("kind",)),),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""
@@ -310,6 +382,9 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "waited": (frozenset(),),
     "differed": (frozenset(),),
     "before_crash": (frozenset(),),
-    **dict.fromkeys(("lane_changes", "passed", "verdict"), (frozenset(),)),
+    **dict.fromkeys(("lane_changes", "passed", "verdict", "stops", "lanes_used", "tight"), (frozenset(),)),
+    "needed": tuple(
+        frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
+    ),
 }
 """The ticks that a question about the past names, in each of the ways it can be said."""

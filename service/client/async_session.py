@@ -43,9 +43,14 @@ class AsyncSession(AsyncInNotebook):
         """
         return await self._client._send(endpoints.run_command(self.id, text, dry_run, language, at_tick))
 
-    async def act(self, *actions: Mapping[str, Any], dry_run: bool = False) -> answers.CommandResult:
-        """Do typed actions, no language involved: `act({"do": "pause"})`."""
-        return await self._client._send(endpoints.run_actions(self.id, actions, dry_run))
+    async def act(
+        self, *actions: Mapping[str, Any], dry_run: bool = False, at_tick: int | None = None
+    ) -> answers.CommandResult:
+        """Do typed actions, no language involved: `act({"do": "pause"})`.
+
+        `at_tick`: the past tick that is looked at, of which questions are asked.
+        """
+        return await self._client._send(endpoints.run_actions(self.id, actions, dry_run, at_tick))
 
     async def configure(self, **parts: Any) -> answers.ConfigChanged:
         """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""

@@ -135,9 +135,11 @@ def run_command(
     return Call("POST", path, _json(answers.CommandResult), body, said="text", key=new_key())
 
 
-def run_actions(session: str, actions: Sequence[Json], dry_run: bool) -> Call[answers.CommandResult]:
+def run_actions(
+    session: str, actions: Sequence[Json], dry_run: bool, at_tick: int | None
+) -> Call[answers.CommandResult]:
     """Does typed actions."""
-    body = {"actions": list(actions), "dry_run": dry_run}
+    body = _without_none(actions=list(actions), dry_run=dry_run, at_tick=at_tick)
     return Call("POST", _session_path(session, "/actions"), _json(answers.CommandResult), body, key=new_key())
 
 

@@ -44,9 +44,14 @@ class Session(InNotebook):
         """
         return self._client._send(endpoints.run_command(self.id, text, dry_run, language, at_tick))
 
-    def act(self, *actions: Mapping[str, Any], dry_run: bool = False) -> answers.CommandResult:
-        """Do typed actions, no language involved: `act({"do": "pause"})`."""
-        return self._client._send(endpoints.run_actions(self.id, actions, dry_run))
+    def act(
+        self, *actions: Mapping[str, Any], dry_run: bool = False, at_tick: int | None = None
+    ) -> answers.CommandResult:
+        """Do typed actions, no language involved: `act({"do": "pause"})`.
+
+        `at_tick`: the past tick that is looked at, of which questions are asked.
+        """
+        return self._client._send(endpoints.run_actions(self.id, actions, dry_run, at_tick))
 
     def configure(self, **parts: Any) -> answers.ConfigChanged:
         """Other settings, all or nothing: `configure(traffic="heavy")`; None asks for the default."""

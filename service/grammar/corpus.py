@@ -197,13 +197,20 @@ def _questions() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "history", "what": "choices", "tick": 5}
     yield {"do": "ask", "about": "history", "what": "choices", "ticks": 3}
     yield {"do": "ask", "about": "history", "what": "losses"}
+    for moved in ({}, {"move": "stay"}, {"move": "left"}, {"move": "forward"}):
+        yield {"do": "ask", "about": "history", "what": "needed", **moved}
+        yield {"do": "ask", "about": "history", "what": "needed", "tick": 5, **moved}
+        yield {"do": "ask", "about": "history", "what": "needed", "ticks": 3, **moved}
     for what in ("runner_up", "scores"):
         yield {"do": "ask", "about": "history", "what": what}
         yield {"do": "ask", "about": "history", "what": what, "tick": 5}
         yield {"do": "ask", "about": "history", "what": what, "ticks": 3}
     for what in ("waited", "differed", "before_crash", "lane_changes", "passed", "verdict"):
         yield {"do": "ask", "about": "history", "what": what}
-    yield {"do": "ask", "about": "history", "what": "passed", "kind": "pedestrian"}
+    for what in ("stops", "lanes_used", "tight"):
+        yield {"do": "ask", "about": "history", "what": what}
+    for what in ("passed", "stops"):
+        yield {"do": "ask", "about": "history", "what": what, "kind": "pedestrian"}
     yield {"do": "ask", "about": "history", "what": "since", "seconds": 2.5}
     yield {"do": "ask", "about": "why", "move": "left", "instead": "right"}
     for how in get_args(DetailName):

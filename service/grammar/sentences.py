@@ -358,7 +358,8 @@ class Sentences(RuleSentences):
         if ask.what == "similar":
             key += "_to" if ask.tick is not None else ""
             key += "" if ask.count is None else "_one" if ask.count == 1 else "_count"
-        if ask.what in ("choices", "runner_up", "scores") and ask.tick is not None:
+        key += "" if ask.move is None else "_move"
+        if ask.what in ("choices", "runner_up", "scores", "needed") and ask.tick is not None:
             key += "_at"
         if ask.ticks is not None:
             key += "_ticks" if ask.ticks != 1 else "_tick"
@@ -366,8 +367,15 @@ class Sentences(RuleSentences):
         key += "" if ask.kind is None else "_kind"
         seconds = "" if ask.seconds is None else number(ask.seconds)
         things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
+        move = "" if ask.move is None else self._word("asked", ask.move)
         return self._word("history", key).format(
-            tick=ask.tick, until=ask.until, ticks=ask.ticks, count=ask.count, seconds=seconds, things=things
+            tick=ask.tick,
+            until=ask.until,
+            ticks=ask.ticks,
+            count=ask.count,
+            seconds=seconds,
+            things=things,
+            move=move,
         )
 
     def _of_what(self, ask: Ask) -> str:
@@ -377,10 +385,12 @@ class Sentences(RuleSentences):
         key = str(ask.what) + ("_of" if named else "") + ("" if ask.tick is None else "_tick")
         key += "" if ask.ticks is None else "_ticks"
         key += "" if ask.seconds is None else "_seconds"
+        key += "" if ask.kind is None else "_kind"
         seconds = "" if ask.seconds is None else number(ask.seconds)
+        things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
         move = "" if ask.move is None else self._word("asked", ask.move)
         return self._word(ask.about, key).format(
-            planners=planners, tick=ask.tick, ticks=ask.ticks, seconds=seconds, move=move
+            planners=planners, tick=ask.tick, ticks=ask.ticks, seconds=seconds, move=move, things=things
         )
 
     def _evaluate(self, action: Evaluate) -> str:

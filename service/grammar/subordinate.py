@@ -200,11 +200,7 @@ def _had_moved(
 
 def _end_supposed(lattice: Lattice, supposed: tuple[int, int], whole: tuple[int, int]) -> str | None:
     """How the question beside what is supposed takes it to end; None where it asks what happens."""
-    asked = (
-        _longest(lattice, at, THEN_WHAT)
-        for at in range(*whole)
-        if not supposed[0] <= at < supposed[1]
-    )
+    asked = (_longest(lattice, at, THEN_WHAT) for at in range(*whole) if not supposed[0] <= at < supposed[1])
     return next((str(edge.sense.value) for edge in asked if edge is not None and edge.sense.value), None)
 
 

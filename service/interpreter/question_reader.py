@@ -95,7 +95,9 @@ class QuestionReader:
         if not asks:
             return None
         choices = tuple(PendingChoice(sentence, parse.actions) for sentence, parse in questions)
-        said = words.said("may_ask") if len(choices) > 1 else words.said("may_ask_one", sentence=choices[0].text)
+        said = (
+            words.said("may_ask") if len(choices) > 1 else words.said("may_ask_one", sentence=choices[0].text)
+        )
         raise Asked(PendingQuestion(text, said, choices, "matched", code))
 
 

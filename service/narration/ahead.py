@@ -15,6 +15,7 @@ from service.contract.encode.ahead import (
 )
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
+from service.narration.asked_moment import where_stuck
 from service.narration.assurance import assurance_told
 from service.narration.charges import in_seconds
 from service.narration.crash_ahead import CrashesAhead
@@ -22,7 +23,6 @@ from service.narration.futures_told import counted_told, end_told, share_told, y
 from service.narration.naming import Naming
 from service.narration.repair import Repairs
 from service.narration.sayings import Sayings
-from service.narration.asked_moment import where_stuck
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.ahead import Arrival, StuckAhead, arrival, crash_ahead, stuck_ahead
@@ -32,7 +32,6 @@ from sim.explain.safe_move import SafeMove, safe_move
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Mode, Move, Outcome
-
 
 _LEADS_ON: Final = ("way", "arrive_how")
 """What is asked of how it could go on."""

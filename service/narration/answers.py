@@ -9,11 +9,14 @@ from service.actions import Ask
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
+from service.narration.asked_moment import at_its_moment
 from service.narration.blame import Blames
 from service.narration.choices import Choices
+from service.narration.coming_turn import ComingTurns
 from service.narration.confidence import Confidences
 from service.narration.course import Courses
 from service.narration.details import Details
+from service.narration.drive_counts import DriveCounts
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
 from service.narration.history import History
@@ -21,9 +24,11 @@ from service.narration.human_drivers import HumanDrivers
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
+from service.narration.necessity import Necessities
 from service.narration.next import Next
 from service.narration.others import Others
 from service.narration.planner_difference import PlannerDifferences
+from service.narration.planner_facts import PlannerFacts
 from service.narration.planner_parting import PlannerPartings
 from service.narration.planners import Planners
 from service.narration.quiz.answer import Quizzes
@@ -32,6 +37,7 @@ from service.narration.rules import RulesTold
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.sensing_compared import SensingCompared
+from service.narration.sensing_facts import SensingFacts
 from service.narration.sensors_again import SensorsAgain
 from service.narration.settings import Settings
 from service.narration.sight import Sights
@@ -39,10 +45,10 @@ from service.narration.soon import Soon
 from service.narration.status import Help, Status
 from service.narration.stretches import Stretches
 from service.narration.talk import OpenQuestion, RecentChanges
-from service.narration.asked_moment import at_its_moment
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.narration.world import Worlds
+from service.narration.world_facts import WorldFacts
 from service.narration.world_rules import WorldRules
 from service.sessions.facts import Advised, Answerable, Asked
 from sim.explain import QuestionError
@@ -60,6 +66,26 @@ RULES_OF_THE_WORLD: Final = (
 )
 """What is asked of this world and holds in every drive."""
 
+FACTS_OF_THE_WORLD: Final = (
+    "tick_order",
+    "sharing",
+    "road_size",
+    "tick_length",
+    "fixtures",
+    "slippery",
+    "endings",
+    "road_made",
+    "realism",
+    "constancy",
+    "contact",
+    "points",
+    "behind",
+)
+"""What is asked of how this world is made."""
+
+FACTS_OF_PLANNERS: Final = ("lookahead", "ties", "replanning", "precedence", "costs", "stops", "prediction")
+"""What is asked of how a planner decides always."""
+
 
 class Answers:
     """Answers in one language."""
@@ -76,8 +102,14 @@ class Answers:
             Soon(sayings): ("risk", "coming"),
             Moments(sayings): ("riskiest", "similar"),
             Courses(sayings): ("lane_changes", "passed", "verdict"),
+            DriveCounts(sayings): ("stops", "lanes_used", "tight"),
+            Necessities(sayings): ("needed",),
+            ComingTurns(sayings): ("next_stop", "next_change"),
             SensingCompared(sayings): ("care", "weathers", "sensors"),
             WorldRules(sayings): RULES_OF_THE_WORLD,
+            WorldFacts(sayings): FACTS_OF_THE_WORLD,
+            PlannerFacts(sayings): FACTS_OF_PLANNERS,
+            SensingFacts(sayings): ("memory", "unseen", "detection", "combining"),
             PlannerDifferences(sayings): ("difference",),
             HumanDrivers(sayings): ("human",),
             SensorsAgain(sayings): ("prevents",),
@@ -159,7 +191,7 @@ def _at_the_detour(asked: Asked) -> Asked:
 
 def _meets_one_tick(ask: Ask) -> bool:
     """Whether so many ticks back is the tick of one decision, rather than where a stretch begins."""
-    return ask.about not in ("history", "outlook") or ask.what in ("choices", "runner_up", "scores")
+    return ask.about not in ("history", "outlook") or ask.what in ("choices", "runner_up", "scores", "needed")
 
 
 def _at_its_tick(asked: Asked) -> Asked:

@@ -80,13 +80,15 @@ def where_stuck(timeline: Timeline) -> Timeline | None:
 
 def _says_tick(ask: Ask) -> bool:
     """Whether the answer about a tick names it by itself."""
-    return ask.about in ("why", "why_not") or ask.what in ("seen", "choices", "runner_up", "scores")
+    return ask.about in ("why", "why_not") or ask.what in ("seen", "choices", "runner_up", "scores", "needed")
 
 
 def _is_made(timeline: Timeline, tick: int, move: Move | None) -> bool:
     """Whether the decision at a tick is a move, as people call it; any is where none is named."""
+    if move is None:
+        return True
     decision = timeline.decision(tick)
-    return move is None or (decision is not None and decision.move in SAID_OF.get(move, (move,)))
+    return decision is not None and decision.move in SAID_OF.get(move, (move,))
 
 
 def _end_of_episode(timeline: Timeline, tick: int) -> int:

@@ -17,7 +17,7 @@ from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.attribution import Attribution, attribute
-from sim.explain.blame import RERUN_TICKS, Blame, Fault, Foreseen, blame, foreseen
+from sim.explain.blame import LOOK_BACK, RERUN_TICKS, Blame, Fault, Foreseen, blame, foreseen
 from sim.explain.crash import SAVED_WITHIN, Crash
 from sim.plan import traits_of
 from sim.session.timeline import Timeline
@@ -45,9 +45,10 @@ class Blames:
         """See `Answerer.answer`. Where there was no crash, that is the answer."""
         ask, timeline, first = asked.ask, asked.timeline, yes_and_no(self._sayings, asked)
         try:
-            if ask.what == "foreseen":
+            if ask.what in ("foreseen", "first_seen"):
                 seen = foreseen(timeline, ask.tick)
-                text, facts = self._foreseen(seen, first), foreseen_json(seen)
+                text = self._foreseen(seen, first) if ask.what == "foreseen" else self._first_seen(seen)
+                facts = foreseen_json(seen)
             else:
                 found = blame(timeline, ask.tick)
                 spared = _attribution(timeline, found) if ask.what == "fault" else None
@@ -149,6 +150,24 @@ class Blames:
         key = "late" if before == 1 else "expected"
         told = self._say("foreseen", key, who=who, tick=since, seconds=seconds, **first)
         return told if found.crash.free else f"{told} {self._say('foreseen', 'no_way')}"
+
+    def _first_seen(self, found: Foreseen) -> str:
+        """Since when it was seen without a break, and since when it was expected there."""
+        who = self._hit(found.crash, found.state)
+        since, end = found.seen_since, found.crash.end
+        if since is None:
+            return self._say("first_seen", "never", who=who)
+        key = "longer" if end - since > LOOK_BACK else "since"
+        seen = self._say(
+            "first_seen", key, who=who, tick=since, seconds=self._seconds(end - since, found.state)
+        )
+        expected = found.expected_since
+        if expected is None:
+            return within([Part(0, seen), Part(1, self._say("first_seen", "not_expected"))])
+        before = self._seconds(end - expected, found.state)
+        return within(
+            [Part(0, seen), Part(1, self._say("first_seen", "expected", tick=expected, seconds=before))]
+        )
 
     def _hit(self, crash: Crash, state: SimState) -> str:
         ids = [name for name in crash.cause.ids if name != crash.explanation.decision.av]

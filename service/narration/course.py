@@ -52,7 +52,14 @@ class Courses:
         last = found.found[-1]
         if len(found.found) == 1:
             side = self._say("sides", "left" if last.left else "right")
-            told = [Part(0, self._say("lanes", "one", seconds=seconds, side=side, when=self._when(last.tick, timeline)))]
+            told = [
+                Part(
+                    0,
+                    self._say(
+                        "lanes", "one", seconds=seconds, side=side, when=self._when(last.tick, timeline)
+                    ),
+                )
+            ]
         else:
             counts = {"count": len(found.found), "left": found.left, "right": found.right}
             told = [Part(0, self._say("lanes", "many", seconds=seconds, **counts))]

@@ -187,10 +187,8 @@ class Sayings:
         """A cell as people call it: lanes count from 1."""
         return self.say("words", "at_cell", lane=cell[0] + 1, row=cell[1])
 
-    def met(
-        self, option: Option, tense: str, naming: Names, *, again: frozenset[str] = frozenset()
-    ) -> str:
-        """What a move would meet, `now` or `then`; of the things `again` other moves are told to meet them."""
+    def met(self, option: Option, tense: str, naming: Names, *, again: frozenset[str] = frozenset()) -> str:
+        """What a move would meet, `now` or `then`; `again`: things that other moves are told to meet."""
         return self.in_the_way(option.reason, option.move, option.causes, tense, naming, again=again)
 
     def all_met(self, options: Sequence[Option], tense: str, naming: Names) -> str:

@@ -84,7 +84,7 @@ class WhatIfs:
             told = plain(self._sayings, ask, timeline.state, self._say("cannot", message=message))
             return told | {"evidence": {"code": error.category, "field": error.field, "message": message}}
         text = self.text(ask, found, again=ask.tick is None and tick is not None)
-        if (first := self._agreed(asked, found)):
+        if first := self._agreed(asked, found):
             text = f"{first} {text}"
         if len(imagined_actions(change)) < len(change):
             text = f"{text} {self._say('rest_aside')}"

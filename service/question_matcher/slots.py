@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,8 @@ from service.grammar.lattice import Edge, Lattice
 from service.grammar.tokens import Token, normalise, tokenise
 from service.yaml_files import read_yaml
 
+NO_PROSE = re.compile(r"[{}\[\]]")
+"""Marks of code and of data, which no question holds."""
 STAY = "stay"
 FORWARD = "forward"
 MIN_OWN_WORDS = 2
@@ -90,11 +94,29 @@ class SlotWords:
 
     def asks(self, text: str, question: Question) -> bool:
         """Whether a text has the form of a question, or of a wish to be told."""
-        return "?" in text or not self._asking.isdisjoint(question.words)
+        if NO_PROSE.search(text):
+            return False
+        words = question.words
+        return (
+            "?" in text
+            or not self._asking.isdisjoint(words)
+            or any(
+                word in self._inverted and (at == 0 or then[0] == "<" or then in self._subjects)
+                for at, (word, then) in enumerate(pairwise((*words, "$")))
+            )
+        )
 
     @cached_property
     def _asking(self) -> frozenset[str]:
         return frozenset(self._data["asking"])
+
+    @cached_property
+    def _inverted(self) -> frozenset[str]:
+        return frozenset(self._data["asking_before_subject"])
+
+    @cached_property
+    def _subjects(self) -> frozenset[str]:
+        return frozenset(self._data["subjects"])
 
     def _spans(self, tokens: Sequence[Token], lattice: Lattice) -> list[_Span]:
         found: list[_Span] = []

@@ -96,7 +96,7 @@ def pattern(
     alike = [state for state, made in moves if made in SAID_OF.get(move, (move,))]
     if not alike:
         raise QuestionError("never_made", move=move, ticks=last - first)
-    instances = tuple(_instance(timeline, state) for state in reversed(alike[-_most(timeline) :]))
+    instances = tuple(instance_of(timeline, state) for state in reversed(alike[-most_retaken(timeline) :]))
     seconds = (last - first) * timeline.state.config.step_seconds
     return Pattern(move, first, last, seconds, len(alike), len(moves), instances)
 
@@ -111,7 +111,8 @@ def move_between(before: SimState, after: SimState) -> Move | None:
     return next((move for move in Move if dynamics.target(one.av, move) == other.av), None)
 
 
-def _instance(timeline: Timeline, state: SimState) -> Instance:
+def instance_of(timeline: Timeline, state: SimState) -> Instance:
+    """What the decision in a state hung on; nothing of a move that a person asked for."""
     decision = timeline.decided(state)
     if decision is None or decision.asked is not None:
         return Instance(state, (), None)
@@ -132,7 +133,7 @@ def _most_frequent(moves: list[Move]) -> Move | None:
     return counts.most_common(1)[0][0] if counts else None
 
 
-def _most(timeline: Timeline) -> int:
+def most_retaken(timeline: Timeline) -> int:
     """How many decisions are taken again."""
     traits = traits_of(timeline.state.config.planner)
     return MOST_DECISIONS if traits.quick else max(1, MOST_DECISIONS // 6)

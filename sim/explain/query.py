@@ -37,7 +37,7 @@ def why(
     """
     check_ego(timeline.state, ego)
     if tick is None and move is not None:
-        state, decision = _latest(timeline, SAID_OF.get(move, (move,)), ego)
+        state, decision = latest_decision(timeline, SAID_OF.get(move, (move,)), ego)
         if decision is None:
             raise QuestionError("never_made", move=move, ticks=min(timeline.tick, LOOK_BACK_TICKS))
         return explain_why(state, decision, timeline.announced(state, ego), effort)
@@ -76,7 +76,7 @@ def contrast(
     """
     check_ego(timeline.state, ego)
     if tick is None and move is not None:
-        state, latest = _latest(timeline, SAID_OF.get(move, (move,)), ego)
+        state, latest = latest_decision(timeline, SAID_OF.get(move, (move,)), ego)
         if latest is None:
             raise QuestionError("never_made", move=move, ticks=min(timeline.tick, LOOK_BACK_TICKS))
         decision = latest
@@ -95,7 +95,7 @@ def decision_meant(timeline: Timeline, tick: int | None, ego: str | None) -> tup
     """The decision of an ego at a tick, or its latest, and the state before it. Raises `QuestionError`."""
     prepare(timeline.state)
     if tick is None:
-        state, found = _latest(timeline, MOVES, ego)
+        state, found = latest_decision(timeline, MOVES, ego)
         if found is None:
             raise QuestionError("nothing_yet", tick=timeline.tick)
         return state, found
@@ -112,13 +112,15 @@ def decision_meant(timeline: Timeline, tick: int | None, ego: str | None) -> tup
 
 def latest_detour(timeline: Timeline, ego: str | None = None) -> Decision:
     """The latest decision to move to a side or diagonally. Raises `QuestionError` where none is near."""
-    _, found = _latest(timeline, tuple(move for move in MOVES if move.offset[0]), ego)
+    _, found = latest_decision(timeline, tuple(move for move in MOVES if move.offset[0]), ego)
     if found is None:
         raise QuestionError("no_detour", ticks=min(timeline.tick, LOOK_BACK_TICKS))
     return found
 
 
-def _latest(timeline: Timeline, moves: tuple[Move, ...], ego: str | None) -> tuple[SimState, Decision | None]:
+def latest_decision(
+    timeline: Timeline, moves: tuple[Move, ...], ego: str | None = None
+) -> tuple[SimState, Decision | None]:
     """The latest decision that was one of these moves, looked for in spans that grow backwards."""
     prepare(timeline.state)
     stop, span = timeline.tick, 1

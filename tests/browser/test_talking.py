@@ -42,7 +42,7 @@ def test_a_typing_error_is_read_and_said_so(visit: Visit) -> None:
 
 def test_a_question_back_offers_choices(visit: Visit) -> None:
     visitor = visit()
-    exchange = visitor.say("slow down")
+    exchange = visitor.say("more cars")
     assert exchange.get_attribute("data-standing") == "asked"
     choices = exchange.get_by_role("group", name="Choices").get_by_role("button")
     assert choices.count() >= 2

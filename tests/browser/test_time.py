@@ -85,7 +85,7 @@ def test_the_decision_of_the_tick_is_told_everywhere(run: Visitor) -> None:
     )
     blocked = sum(option["verdict"] != "free" for option in decision["options"])
     expect(run.page.locator(".chart-told").first).to_have_text(f"{blocked} of 6 blocked")
-    dimmed = {tick: later for tick, later in log_lines(run)}
+    dimmed = dict(log_lines(run))
     assert dimmed == {tick: tick > 44 for tick in dimmed}
     assert set(dimmed.values()) == {False, True}
     expect(bar(run)).to_contain_text("Tick 44 of")

@@ -246,7 +246,7 @@ def test_metrics_are_the_service_s_own(visit: Visit) -> None:
     judged = asked(visitor, f"regret?from={state['tick'] - 60}&limit=60")["items"]
     lost = sum(item["ticks"] or 0 for item in judged)
     if any(item["lost"] for item in judged):
-        expect(visitor.page.locator(".chart-told").nth(1)).to_have_text("the crash became unavoidable")
+        expect(visitor.page.locator(".chart-told").nth(1)).to_have_text("the goal got out of reach")
     else:
         ticks = "1 tick" if lost == 1 else f"{lost} ticks"
         expect(visitor.page.locator(".chart-told").nth(1)).to_have_text(f"{ticks} lost in {len(judged)}")

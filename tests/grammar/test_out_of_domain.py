@@ -10,7 +10,15 @@ from tests.support.other_domains import by_hand, sentences
 HARMLESS = frozenset(("chat", "load"))
 """A line of small talk; and a name that nobody gave, which is refused when it is looked up."""
 
-KNOWN = frozenset(("take the car to the garage", "it's your turn", "how come she left", "resume my friends"))
+KNOWN = frozenset(
+    (
+        "take the car to the garage",
+        "it's your turn",
+        "how come she left",
+        "resume my friends",
+        "are you bored?",
+    )
+)
 """Sentences that may be meant for the simulator as well."""
 
 

@@ -23,6 +23,7 @@ LANGUAGES = Languages.load()
         ("en", "what if you had gone left here?", Ask(about="what_if", move=Move.LEFT)),
         ("en", "what were the options at this tick?", Ask(about="history", what="choices")),
         ("de", "warum bist du hier nicht nach rechts gefahren?", Ask(about="why_not", move=Move.RIGHT)),
+        ("de", "erkläre diesen Moment", Ask(about="why")),
         ("de", "wie riskant ist es in diesem Moment?", Ask(about="outlook", what="risk")),
     ],
 )

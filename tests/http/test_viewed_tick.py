@@ -124,3 +124,31 @@ async def test_in_german(talking: Service) -> None:
     path = await driven(talking, language="de")
     seen = await told(talking, path, "was siehst du hier?", at_tick=VIEWED)
     assert seen["reply"].startswith(f"Bei Tick {VIEWED}: ")
+
+
+async def test_where_it_is_stuck_it_is_told_what_would_have_led_on(talking: Service) -> None:
+    path = await talking.session(seed=1, config={"rows": 14, "vehicles": 0, "potholes": 0})
+    talking.clock.tick(3)
+    await told(talking, path, "put a barrier in every lane in row 6")
+    while (await talking.state(path))["status"] == "running":
+        talking.clock.tick(1)
+    assert (await talking.state(path))["status"] == "stuck"
+    way = (await told(talking, path, "is there a way to the goal?"))["answer"]
+    assert way["tick"] == 3
+    assert way["text"].startswith("At tick 3: No: no way leads to the goal")
+    changed = await told(talking, path, "what would get you moving again?")
+    assert "Without the barrier" in changed["reply"]
+
+
+async def test_a_drive_that_has_just_begun_is_not_judged_but_the_one_before(talking: Service) -> None:
+    path = await talking.session(seed=1, config={"rows": 12, "vehicles": 0, "potholes": 0})
+    first = (await told(talking, path, "was that a safe drive?"))["reply"]
+    assert first == "Nothing has been driven yet."
+    while (await talking.state(path))["episode"] == 1:
+        talking.clock.tick(1)
+    before = await told(talking, path, "was that a safe drive?")
+    assert before["reply"].startswith(
+        f"Of the drive before, up to tick {before['answer']['tick']}: I arrived"
+    )
+    talking.clock.tick(6)
+    assert (await told(talking, path, "was that a safe drive?"))["reply"].startswith("So far without a crash")

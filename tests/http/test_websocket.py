@@ -173,6 +173,18 @@ async def test_steps_are_played_tick_by_tick(live: Live) -> None:
         assert (await receive(stream))["state"]["tick"] == 103
 
 
+async def test_what_is_asked_is_asked_of_the_tick_that_is_looked_at(live: Live) -> None:
+    live.clock.tick(4)
+    async with live.open() as stream:
+        await receive(stream)
+        asked = {"type": "actions", "actions": [{"do": "ask", "about": "why"}]}
+        for number, at_tick in enumerate((2, 99)):
+            await stream.send(json.dumps(asked | {"id": str(number), "at_tick": at_tick}))
+        answered, refused = await receive(stream), await receive(stream)
+        assert answered["result"]["answer"]["tick"] == 2
+        assert refused["problem"]["errors"][0]["field"] == "at_tick"
+
+
 async def test_refusals_come_under_their_id(live: Live) -> None:
     async with live.open() as stream:
         await receive(stream)

@@ -94,3 +94,14 @@ async def test_a_road_on_which_moves_slip_is_told_as_one(talking: Service) -> No
     await talking.say(path, "step 30 times")
     log = (await talking.client.get(f"{path}/events")).json()
     assert "slipped" in str(log)
+
+
+async def test_a_new_road_tells_the_settings_that_it_puts_back(talking: Service) -> None:
+    path = await talking.session()
+    await talking.say(path, "use A*")
+    await talking.say(path, "set the weather to fog")
+    told = (await talking.say(path, "make a maze")).json()["reply"]
+    assert "The planner: A* → Rules." in told
+    assert "The weather: fog → clear." in told
+    again = (await talking.say(path, "make a maze with A*")).json()["reply"]
+    assert "The planner" not in again

@@ -24,6 +24,7 @@ FREE_TEXT = {
     ("Landmark", "id"),
     ("Set", "value"),
     ("Ask", "value"),
+    ("Evaluate", "scenario_name"),
     ("Drive", "ego"),
     ("SetMode", "ego"),
     ("Style", "style"),

@@ -105,7 +105,8 @@ def test_how_planners_differ_is_what_each_does() -> None:
 def test_sensors_and_weathers_are_compared_by_the_tables_of_the_sensors() -> None:
     state = driven(0, seed=1, sensor="camera", weather="fog").state
     told = answer(driven(0, seed=1, sensor="camera", weather="fog"), "sight", "weathers")
-    for weather, name in (("clear", "clear"), ("fog", "fog"), ("snow", "snow")):
+    weathers: tuple[tuple[Any, str], ...] = (("clear", "clear"), ("fog", "fog"), ("snow", "snow"))
+    for weather, name in weathers:
         found = reach(replace(state.config, weather=weather))
         assert found is not None
         assert told["half_detected_m"][name] == found.half[Kind.VEHICLE] * state.config.cell_m

@@ -82,7 +82,8 @@ def test_with_several_others_none_is_singled_out() -> None:
 @pytest.mark.parametrize("code", ["en", "de"])
 def test_it_says_how_to_run_the_road_many_times(code: str) -> None:
     timeline, language, sayings = Timeline(Config(seed=1)), Language.load(code), Sayings.load(code)
-    for other in sorted(set(BUILT_IN) - {timeline.state.config.planner}):
+    others: list[Any] = sorted(set(BUILT_IN) - {timeline.state.config.planner})
+    for other in others:
         ask = Ask(about="planners", what="compare", planners=(other,))
         text = Planners(sayings).answer(Asked(ask, timeline))["text"]
         told = text.replace("„", "“").replace("”", "“").split("“")[-2]

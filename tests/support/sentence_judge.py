@@ -48,8 +48,8 @@ class Recording(Sayings):
 
     named: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
-    def in_the_way(self, reason, move, ids, tense, naming):  # type: ignore[no-untyped-def]
-        told = super().in_the_way(reason, move, ids, tense, naming)
+    def in_the_way(self, reason, move, ids, tense, naming, **more):  # type: ignore[no-untyped-def]
+        told = super().in_the_way(reason, move, ids, tense, naming, **more)
         self.named = (*self.named, (told.lower(), tuple(ids)))
         return told
 
@@ -99,8 +99,9 @@ def judge_crash(crash: Crash, first: SimState, at: Callable[[int], SimState], te
 def judge_comes_first(explanation: Explanation, text: str) -> Judged:
     """Costs have no order, and what is free is not in the way."""
     weighed = explanation.decision.measure is not Measure.RANK and explanation.decision.asked is None
-    if weighed and "comes first" in text:
-        even = "comes first among equals" in text and text.count("comes first") == 1
+    ranked = len(re.findall("comes first|I prefer", text))
+    if weighed and ranked:
+        even = "comes first among equals" in text and ranked == 1
         yield "2 comes first", None if even else text
     if "in the way then" not in text:
         return

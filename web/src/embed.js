@@ -85,7 +85,8 @@ class Embed {
     this.road.update?.(next, this.shown);
     this.shown = next;
     this.loop.wake();
-    this.#tell(past.narration ?? (past.world.status === "running" ? "" : t(`verdict.${past.world.status}`)));
+    // Of the present nothing is decided yet.
+    this.#tell(past.narration ?? past.led ?? "");
   }
 
   /** @param {boolean} on */

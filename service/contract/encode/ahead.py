@@ -9,6 +9,7 @@ from service.contract.encode.confidence import confidence_json
 from service.contract.encode.forecast import story_json
 from sim.explain.ahead import Arrival, CrashAhead, StuckAhead
 from sim.explain.avoidance import Avoidable
+from sim.explain.coming_turn import ComingTurn
 from sim.explain.foresight import Foresight
 from sim.explain.planners import PlannerDrive
 from sim.explain.repair import Repair
@@ -111,3 +112,15 @@ def _plan_json(plan: tuple[Move, ...] | None) -> list[str] | None:
 
 def _cause_json(cause: Cause) -> Json:
     return {"ids": list(cause.ids), "how": cause.how, "kind": cause.kind, "cell": list(cause.cell)}
+
+
+def coming_turn_json(found: ComingTurn) -> Json:
+    """The next stop or change of lanes in one run; null where there is none."""
+    return {
+        "move": found.move,
+        "after": found.after,
+        "at_tick": None if found.after is None else found.state.world.tick + found.after,
+        "ids": [] if found.detour is None else list(found.detour.ids),
+        "left_to_chance": found.chance,
+        "run": story_json(found.story),
+    }

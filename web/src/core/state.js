@@ -65,7 +65,7 @@ import { NO_REGRET, regretAfter } from "../why/regret.js";
  * @property {{other: Hypothesis} | null} comparison  the latest request to see what would have been; a new object each time
  */
 
-/** @typedef {{world: World, decision: Decision | null, narration: string | null}} Past  a tick, and what was decided there */
+/** @typedef {{world: World, decision: Decision | null, narration: string | null, led: string | null}} Past  a tick, what was decided there, and what had led there */
 
 /** @typedef {{tick: number | null, playing: boolean}} Look  null: the present; playing: it goes on by itself */
 

@@ -66,8 +66,9 @@ export function createHold(page) {
 
 /** The line that told of the end. @param {Pick<State, "log" | "world">} state */
 export function endOf({ log, world }) {
-  const end = log.findLast(({ type, gone }) => ENDS.has(type) && !gone);
-  return end && end.to >= (world?.tick ?? 0) - (world?.metrics.last_episode_ticks ?? 0) ? end : undefined;
+  const tick = world?.tick ?? 0;
+  const end = log.findLast(({ type, gone, to }) => ENDS.has(type) && !gone && to <= tick);
+  return end && end.to >= tick - (world?.metrics.last_episode_ticks ?? 0) ? end : undefined;
 }
 
 /**

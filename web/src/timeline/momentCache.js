@@ -19,16 +19,17 @@ const PAGES = 24;
 /**
  * A past tick as the panels know a present, with the decision that was taken there, which the service tells with the
  * tick after it. The decision has the reason and causes that a tick message tells.
- * @param {Pick<Moment, "state">} moment
+ * @param {Pick<Moment, "state"> & Partial<Moment>} moment
  * @param {Pick<Moment, "decision">} [after]
  * @returns {Past}
  */
-export function pastOf({ state }, { decision } = { decision: null }) {
+export function pastOf({ state, decision: before }, { decision } = { decision: null }) {
   const first = decision?.options?.[0];
   return {
     world: worldOf(state),
     decision: decision && { reason: first?.reason, causes: first?.causes ?? [], ...decision },
     narration: decision?.narration ?? null,
+    led: before?.narration ?? null,
   };
 }
 

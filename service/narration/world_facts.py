@@ -1,0 +1,156 @@
+"""Answers about what this world is: its size and clock, who moves when, what touches, how drives end."""
+
+from __future__ import annotations
+
+from service.narration.answer_length import Part, within
+from service.narration.answerer import Json, plain
+from service.narration.charges import in_seconds
+from service.narration.sayings import Sayings
+from service.narration.values import value_of
+from service.sessions.facts import Asked
+from sim.config import COUNTS
+from sim.perceive.registry import sensor_named
+from sim.state import SimState
+from sim.types import KINDS, PLACEABLE, Kind
+
+
+class WorldFacts:
+    """Answers to "who moves first?", "how wide is the road?", "are there traffic lights?"."""
+
+    def __init__(self, sayings: Sayings) -> None:
+        """`sayings`: the language's."""
+        self._sayings = sayings
+
+    def answer(self, asked: Asked) -> Json:
+        """See `Answerer.answer`."""
+        ask, state = asked.ask, asked.timeline.state
+        tell = {
+            "tick_order": self._tick_order,
+            "sharing": self._sharing,
+            "road_size": self._road_size,
+            "tick_length": self._tick_length,
+            "fixtures": self._fixtures,
+            "slippery": self._slippery,
+            "endings": self._endings,
+            "road_made": self._road_made,
+            "realism": self._realism,
+            "constancy": self._constancy,
+            "contact": self._contact,
+            "points": self._points,
+            "behind": self._behind,
+        }[str(ask.what)]
+        text, facts = tell(state)
+        return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
+
+    def _tick_order(self, state: SimState) -> tuple[str, Json]:
+        """Others choose first, the ego knows it, all move at once; who brakes for an ego that stays."""
+        config, several = state.config, len(state.world.avs) > 1
+        told = [Part(0, self._say("tick_order", "all"))]
+        if config.attentive:
+            told.append(Part(1, self._say("tick_order", "brakes", percent=self._percent(config.attentive))))
+        if several:
+            told.append(Part(2, self._say("tick_order", "several")))
+        return within(told), {"attentive": config.attentive, "several": several}
+
+    def _sharing(self, state: SimState) -> tuple[str, Json]:  # noqa: ARG002 -- it is the same of every session
+        return self._say("sharing"), {}
+
+    def _road_size(self, state: SimState) -> tuple[str, Json]:
+        road, cell_m = state.world.road, state.config.cell_m
+        number = self._sayings.number
+        text = self._say(
+            "road_size",
+            columns=road.columns,
+            rows=road.rows,
+            cell=number(cell_m),
+            length=number(road.rows * cell_m),
+        )
+        return text, {"columns": road.columns, "rows": road.rows, "cell_m": cell_m}
+
+    def _tick_length(self, state: SimState) -> tuple[str, Json]:
+        seconds = state.config.step_seconds
+        return self._say("tick_length", seconds=self._sayings.number(seconds)), {"seconds": seconds}
+
+    def _fixtures(self, state: SimState) -> tuple[str, Json]:  # noqa: ARG002 -- it is the same of every session
+        return self._say("fixtures"), {}
+
+    def _slippery(self, state: SimState) -> tuple[str, Json]:
+        """Yes only on snow and with a chance of slipping, which is set."""
+        config = state.config
+        percent = self._percent(config.slip_probability)
+        key = "no_snow" if config.weather != "snow" else "yes" if config.slips else "snow"
+        told = [self._say("slippery", key, percent=percent)]
+        if key == "no_snow":
+            told.append(
+                self._say("slippery", "would" if config.slip_probability else "never", percent=percent)
+            )
+        return " ".join(told), {"slips": config.slips, "slip_probability": config.slip_probability}
+
+    def _endings(self, state: SimState) -> tuple[str, Json]:
+        delay = in_seconds(self._sayings, state.config.reset_delay_ticks, state.config)
+        example = self._say("endings_example")
+        return self._say("endings", seconds=delay, example=example), {
+            "delay_ticks": state.config.reset_delay_ticks
+        }
+
+    def _road_made(self, state: SimState) -> tuple[str, Json]:
+        """What a road is drawn from, and what is put on it."""
+        config = state.config
+        told = [Part(0, self._say("road_made", "seed", seed=config.seed))]
+        if config.layout is not None:
+            family = self._sayings.say("settings", "choices", "layout", config.layout)
+            told.append(Part(0, self._say("road_made", "family", family=family)))
+        things = [said for kind in PLACEABLE if (said := self._drawn(kind, state))]
+        if things:
+            told.append(Part(1, self._say("road_made", "things", things=self._sayings.joined(things))))
+        if config.solvable or config.layout:
+            told.append(Part(2, self._say("road_made", "drivable")))
+        return within(told), {"seed": config.seed, "layout": config.layout}
+
+    def _drawn(self, kind: Kind, state: SimState) -> str:
+        """How many things of a kind are drawn; empty for none, and where the family of roads says it."""
+        config = state.config
+        count = getattr(config, COUNTS[kind]) if kind in COUNTS else 0
+        if count:
+            return self._say("road_made", "count", count=count, things=self._sayings.things(kind, count))
+        if count == 0 or config.layout is not None:
+            return ""
+        share = (
+            config.vehicle_probability
+            if kind is Kind.VEHICLE
+            else getattr(config, KINDS[kind].probability or "", 0.0)
+        )
+        a = self._sayings.say("words", "a", kind)
+        return self._say("road_made", "share", a=a, percent=self._percent(share)) if share else ""
+
+    def _realism(self, state: SimState) -> tuple[str, Json]:
+        faithful = sensor_named(state.config.sensor).faithful
+        seconds = self._sayings.number(state.config.step_seconds)
+        told = [Part(0, self._say("realism", "world", seconds=seconds))]
+        told.append(Part(1, self._say("realism", "perfect" if faithful else "errs")))
+        return within(told), {}
+
+    def _constancy(self, state: SimState) -> tuple[str, Json]:
+        config = state.config
+        weather = value_of(self._sayings, "weather", config.weather)
+        light = value_of(self._sayings, "time_of_day", config.time_of_day)
+        text = self._say("constancy", weather=weather, light=light)
+        return text, {"weather": config.weather, "time_of_day": config.time_of_day}
+
+    def _contact(self, state: SimState) -> tuple[str, Json]:
+        collision = state.config.collision
+        return self._say("contact", collision), {"collision": collision}
+
+    def _points(self, state: SimState) -> tuple[str, Json]:  # noqa: ARG002 -- it is the same of every session
+        return self._say("points"), {}
+
+    def _behind(self, state: SimState) -> tuple[str, Json]:
+        several = len(state.world.avs) > 1
+        told = [self._say("behind", "several")] if several else [self._say("behind", "never")]
+        return " ".join([*told, self._say("behind", "side")]), {"several": several}
+
+    def _percent(self, share: float) -> str:
+        return self._sayings.number(round(100 * share, 1))
+
+    def _say(self, *keys: str, **parts: object) -> str:
+        return self._sayings.say("world_facts", *keys, **parts)
