@@ -226,7 +226,7 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "outlook", "what": "safe", "move": move}
     for about in ("outlook", "blame", "planners", "sight", "world"):
         for what in WHATS[about]:
-            if what not in ("safe", "coming", "difference", "detection"):
+            if what not in ("safe", "coming", "difference", "detection", "parting"):
                 yield {"do": "ask", "about": about, "what": what}
     yield {"do": "ask", "about": "sight", "what": "detection", "kind": "pedestrian"}
     yield {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3}
@@ -240,6 +240,7 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "planners", "what": what, "planners": ["astar", "dijkstra"], "tick": 12}
     yield {"do": "ask", "about": "planners", "what": "here", "ticks": 3}
     yield {"do": "ask", "about": "planners", "what": "difference", "planners": ["astar", "bfs"]}
+    yield {"do": "ask", "about": "planners", "what": "parting", "planners": ["astar", "bfs"]}
     yield {"do": "ask", "about": "planners", "what": "method", "planner": "astar"}
     yield {"do": "ask", "about": "planners", "what": "character", "planner": "astar"}
 

@@ -49,9 +49,7 @@ def drive_again(
     state = start
     varied = varied or {}
     if varied:
-        state = replace(start, config=start.config.with_parts(**varied)).with_each_ego(
-            belief=NO_BELIEF
-        )
+        state = replace(start, config=start.config.with_parts(**varied)).with_each_ego(belief=NO_BELIEF)
     first, episode = start.world.tick, start.world.episode
     said = [entry for entry in timeline.entries if first < entry.tick <= end]
     while state.world.outcome is Outcome.RUNNING:

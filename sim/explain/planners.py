@@ -103,9 +103,7 @@ def planners_here(
     return PlannersHere(state, mine, tuple(drive_each(state, found, ego)), missing, ego)
 
 
-def planners_beside(
-    timeline: Timeline, names: Sequence[str], *, ego: str | None = None
-) -> PlannersHere:
+def planners_beside(timeline: Timeline, names: Sequence[str], *, ego: str | None = None) -> PlannersHere:
     """Two planners from the beginning of this drive on; one alone is beside the one that drives.
 
     Raises `QuestionError`: `not_two_planners` where they are not two that there are.

@@ -1,4 +1,4 @@
-"""Several moves in order: what a session comes to in which they are made one by one, and driving on after them."""
+"""Several moves in order come to what making them one by one, and driving on after them, comes to."""
 
 from __future__ import annotations
 
@@ -29,8 +29,9 @@ def test_the_moves_come_to_what_making_them_one_by_one_comes_to() -> None:
     hits = frees = off = 0
     for moves in product((Move.LEFT, Move.FORWARD, Move.STAY), repeat=3):
         found = moves_in_order(timeline, moves)
-        state, left = timeline.state, False
-        for made, move in enumerate(moves, 1):
+        state, left, made = timeline.state, False, 0
+        for move in moves:
+            made += 1
             if state.config.ego_dynamics(state.world.road).target(state.world.av, move) is None:
                 left = True
                 break
