@@ -86,8 +86,8 @@ PlannersName = Literal[
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
 often it arrives, crashes and gets stuck; `difference`: how some differ in general; `parting`: where two first
 decide otherwise on this road. How one decides always: `lookahead`: how far ahead; `ties`: among equals;
-`replanning`: how often; `precedence`: in what order it tries moves; `costs`: what costs what; `halts`: when it
-waits; `prediction`: whether it knows where others go.
+`replanning`: how often; `precedence`: in what order it tries moves; `costs`: what costs what; `halts`: when
+it waits; `prediction`: whether it knows where others go.
 """
 HistoryName = Literal[
     "closest_call",
@@ -182,7 +182,7 @@ same would happen again; `colours`: what the picture shows; `moves`: which moves
 and people move; `weights`: whether a person counts more than a car; `learning`: whether it learns; `nature`:
 whether it feels; `sources`: where answers come from; `by_hand`: what happens while a person drives;
 `giving_up`: when a drive counts as stuck; `tick_order`: who moves first; `sharing`: whether others collide;
- `fixtures`: traffic lights, horns and the like; `endings`: what follows an end; `road_made`: how
+`fixtures`: traffic lights, horns and the like; `endings`: what follows an end; `road_made`: how
 roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`:
 whether there are any; `behind`: whether anything comes from behind.
 """

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import pytest
 
 from service.actions import Ask
+from service.actions.questions import WHATS
 from service.narration import Narrator
 from service.sessions.facts import Asked
 from sim.actions import (
@@ -188,3 +191,10 @@ def test_things_taken_away_one_after_another_are_told_at_once() -> None:
     ids = [name for name in timeline.state.world.hazards.values() if name.startswith("barrier-")]
     removals = [Remove(kind="barrier", count=1, where=Where(id=name)) for name in ids]
     assert NARRATOR.reply(tuple(timeline.apply(1, removals))) == "Removed 3 barriers; no barriers are left."
+
+
+def test_what_is_asked_has_a_name_of_its_own_as_answerers_are_found_by_it() -> None:
+    names = Counter(what for about in WHATS for what in WHATS[about])
+    assert {what for what, count in names.items() if count > 1} == {
+        "detour"
+    }  # answered by its kind of question
