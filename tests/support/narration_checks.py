@@ -8,7 +8,7 @@ ID = re.compile(r"\b(?:pothole|barrier|vehicle|pedestrian)-\d+\b")
 
 
 def looks_like_sentences(text: str) -> bool:
-    return bool(re.fullmatch(r"[A-Z].*[.]", text)) and not re.search(r"[{}]|  |\.\.|None|nan", text)
+    return bool(re.fullmatch(r"[A-Z].*[.]", text)) and not re.search(r"[{}]|  |\.\.|\bNone\b|\bnan\b", text)
 
 
 def ids_in(value: object) -> set[str]:
