@@ -4,6 +4,9 @@ A function of `sim.rules` or `sim.randomness` is compiled as it stands, with the
 replaced by their compiled forms, so that there is one copy of every rule. Compiled code is kept
 in a folder named by a digest of everything it was made from: the usual check looks only at the file
 of the outermost function, and would go on using an old rule that had been compiled into it.
+
+Nothing else imports numba, `numbers` included: two threads that begin to import it in different modules block
+each other, and Python breaks that by failing one of them.
 """
 
 from __future__ import annotations
@@ -15,6 +18,7 @@ from types import FunctionType
 from typing import Any
 
 import numba
+from numba.cpython.unsafe import numbers as numbers
 
 from sim import randomness
 from sim.compiled_files import cache_folder

@@ -140,3 +140,12 @@ def test_only_the_protocol_package_reads_what_uvicorn_does_not_document() -> Non
         if not f"{name}.".startswith("service.http.protocol."):
             reached = {each for each in imports(MODULES[name], whole=True) if each.startswith(undocumented)}
             assert not reached, name
+
+
+def test_one_module_imports_numba_as_two_threads_would_block_each_other() -> None:
+    names = {
+        name
+        for name in MODULES
+        if any(f"{each}.".startswith("numba.") for each in imports(MODULES[name], whole=True))
+    }
+    assert names == {"sim.compilation"}

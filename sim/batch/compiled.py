@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any, Final
 
 import numpy as np
-from numba.cpython.unsafe import numbers
 
-from sim.compilation import compiled, with_names
+from sim.compilation import compiled, numbers, with_names
 from sim.rules import ego_step, limits, traffic
 from sim.rules.mover_boards import PERIODS
 from sim.types import Kind
