@@ -68,7 +68,8 @@ class SlotWords:
         ]
         if not tokens:
             return Question((), {}, frozenset())
-        spans = self._spans(tokens, language.scan(tokens))
+        lattice = language.scan(tokens)
+        spans = self._spans(tokens, lattice)
         words = _masked(tokens, spans)
         slots: dict[str, str] = {}
         binding: set[str] = set()
@@ -83,9 +84,15 @@ class SlotWords:
                 binding.add(_THIRD if span.mark == "planner" and second in binding else second)
                 slots[second] = span.slots[slot]
         if "move" not in binding:
-            moves = (move for move in (STAY, FORWARD) if any(word in self._data[move] for word in words))
+            # Beside a side that may be a move, straight on may be the second of two moves.
+            alone = (STAY,) if self._names_a_side(lattice) else (STAY, FORWARD)
+            moves = (move for move in alone if any(word in self._data[move] for word in words))
             slots |= next((self._data["moves"][move] for move in moves), {})
         return Question(words, slots, frozenset(binding - _LOOSE))
+
+    def _names_a_side(self, lattice: Lattice) -> bool:
+        aside = self._data["moves"].keys() - {FORWARD, STAY}
+        return any(edge.concept == "dir" and str(edge.sense.value) in aside for edge in lattice.all())
 
     def says_something(self, question: Question) -> bool:
         """Whether a question has words of its own, beside slots and what stands between them."""

@@ -183,6 +183,11 @@ def test_a_slot_is_not_left_out(matcher):
     assert all("7" in sentence for sentence in match.sentences)
 
 
+def test_the_second_of_two_moves_is_not_taken_for_the_only_one(matcher):
+    match = matcher.match("what if it goes right now and then forward?", ("running",))
+    assert match is None or not any("forward" in sentence for sentence in match.sentences)
+
+
 def test_what_is_turned_round_is_not_answered_the_other_way(matcher):
     match = matcher.match("what if there was no snow on the road at all?", ("running",))
     assert match is None or "snowy" not in " ".join(match.sentences)
