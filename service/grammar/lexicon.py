@@ -142,6 +142,8 @@ class Lexicon:
     def _add_split(self, words: Words, sense: Sense) -> bool:
         """Add a phrase of two halves; whether it is new."""
         cut = words.index(GAP)
+        if not 0 < cut < len(words) - 1:
+            raise ValueError(f"a phrase of {sense.concept} may have nothing on one side of its gap: {words}")
         added = False
         for half, half_sense in ((words[:cut], sense), (words[cut + 1 :], Sense(SECOND))):
             node = self._node(half)
