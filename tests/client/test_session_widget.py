@@ -90,7 +90,7 @@ def test_what_is_refused_says_why_and_what_could_be_said(session: Session, widge
     asked = said(widget, "slower")
     assert not asked["done"]
     assert "refused" not in asked
-    assert len(asked["choices"]) > 1
+    assert asked["choices"]
     assert session.info().sequence == 0
     assert said(widget, asked["choices"][0])["done"]
 

@@ -34,6 +34,12 @@ VALUES = {
     "parts": {"traffic": "heavy"},
     "recording": {"format": "x"},
 }
+_LOOK = {"theme": "light", "boxes": False, "forecast": True}
+LOOKS = {
+    "read_frame": {**_LOOK, "figures": False},
+    "read_video": {**_LOOK, "format": "gif", "fps": 10, "view": "road", "side": 480, "path": True},
+}
+"""What pictures are asked with, by call."""
 
 
 def made() -> Iterator[tuple[str, Call[Any]]]:
@@ -45,8 +51,7 @@ def made() -> Iterator[tuple[str, Call[Any]]]:
         given: Json = {}
         for parameter in signature.parameters.values():
             if parameter.kind is parameter.VAR_KEYWORD:
-                given |= {"format": "gif", "fps": 10, "view": "road", "side": 480}
-                given |= {"theme": "light", "boxes": False}
+                given |= LOOKS[name]
             elif parameter.name == "actions":
                 given["actions"] = [{"do": "pause"}]
             else:
