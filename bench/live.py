@@ -19,7 +19,9 @@ import re
 import sys
 import time
 from array import array
-from collections.abc import Awaitable, Callable
+from collections import defaultdict
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import AsyncExitStack, asynccontextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -30,6 +32,8 @@ import uvloop
 
 from bench.serving import Service, machine, serving
 from bench.sockets import opened
+from tests.support import postgres
+from tests.support.postgres import binaries
 
 AT_ONCE = 40
 """Sessions asked for at the same time."""
@@ -44,7 +48,7 @@ Done = TypeVar("Done")
 
 RESULTS = Path(__file__).parent / "LIVE.md"
 _TICK = b'{"type":"tick","tick":'
-_BUCKET = re.compile(r'roadtalk_tick_lateness_seconds_bucket\{le="([^"]+)"\} ([\d.]+)')
+_BUCKET = re.compile(r'roadtalk_tick_lateness_seconds_bucket\{[^}]*le="([^"]+)"[^}]*\} ([\d.e+]+)')
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,10 +59,16 @@ class Load:
     hz: float = 2.0
     hurried: int = 0
     """further sessions that run as fast as possible, watched too"""
+    workers: int = 1
+    """processes of the service; more than one have PostgreSQL for their database"""
+    planner: str | None = None
+    """None: that of new sessions"""
 
     def __str__(self) -> str:
         more = f" + {self.hurried} at max" if self.hurried else ""
-        return f"{self.sessions} at {self.hz:g} Hz{more}"
+        processes = f", {self.workers} workers" if self.workers > 1 else ""
+        planner = f", {self.planner}" if self.planner is not None else ""
+        return f"{self.sessions} at {self.hz:g} Hz{more}{processes}{planner}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,10 +153,12 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--sessions", type=int, default=200)
     parser.add_argument("--hz", type=float, default=2.0)
     parser.add_argument("--hurried", type=int, default=0, help="further sessions at `max` speed")
+    parser.add_argument("--workers", type=int, default=1, help="processes of the service (extra `cluster`)")
+    parser.add_argument("--planner", help="of all sessions")
     parser.add_argument("--seconds", type=float, default=20.0)
     parser.add_argument("--write", action="store_true", help="measure the whole table into bench/LIVE.md")
     options = parser.parse_args([] if arguments is None else arguments)
-    loads = [Load(options.sessions, options.hz, options.hurried)]
+    loads = [Load(options.sessions, options.hz, options.hurried, options.workers, options.planner)]
     if options.write:
         twos = [Load(sessions) for sessions in (1_000, 2_000, 3_000, 4_000)]
         loads = [*twos, Load(100, 60.0), Load(200, 60.0), Load(400, 60.0), Load(200), Load(200, hurried=10)]
@@ -164,11 +176,15 @@ def main(arguments: list[str] | None = None) -> None:
 async def measured(load: Load, seconds: float) -> Figures:
     """A service under this load, looked at for so long."""
     room = load.sessions + load.hurried + 10
-    async with serving(max_sessions=room) as service:
+    async with AsyncExitStack() as stack:
+        database = await stack.enter_async_context(_postgres()) if load.workers > 1 else None
+        service = await stack.enter_async_context(
+            serving(database=database, workers=load.workers, max_sessions=room)
+        )
         async with httpx.AsyncClient(base_url=service.url, timeout=60) as client:
             base_mb = service.memory_mb()
             paces = [load.hz] * load.sessions + [None] * load.hurried
-            streams = await _all([partial(_made, client, pace) for pace in paces])
+            streams = await _all([partial(_made, client, pace, load.planner) for pace in paces])
             await asyncio.sleep(SETTLE_S)
             made_mb = service.memory_mb()
             heard = [Heard() for _ in streams]
@@ -181,6 +197,16 @@ async def measured(load: Load, seconds: float) -> Figures:
         for socket in sockets:
             socket.close()
     return figures
+
+
+@asynccontextmanager
+async def _postgres() -> AsyncIterator[str]:
+    """A database of a PostgreSQL server of its own."""
+    programs = binaries()
+    if programs is None:
+        raise SystemExit("several workers need PostgreSQL, and none is installed")
+    with postgres.serving(programs) as server:
+        yield await server.database()
 
 
 async def _look(
@@ -219,9 +245,10 @@ async def _look(
     )
 
 
-async def _made(client: httpx.AsyncClient, hz: float | None) -> str:
+async def _made(client: httpx.AsyncClient, hz: float | None, planner: str | None) -> str:
     """The stream of a new session; `hz` None is as fast as possible."""
-    made = (await client.post("/api/v1/sessions", json={})).raise_for_status().json()
+    config = {} if planner is None else {"planner": planner}
+    made = (await client.post("/api/v1/sessions", json={"config": config})).raise_for_status().json()
     speed = "max" if hz is None else hz * made["config"]["step_seconds"]
     if speed != 1.0:
         action = {"do": "set", "parameter": "playback_speed", "value": speed}
@@ -242,8 +269,10 @@ async def _all(works: list[Callable[[], Awaitable[Done]]]) -> list[Done]:
 
 async def _buckets(client: httpx.AsyncClient) -> dict[float, float]:
     """How many ticks were up to so late, in seconds, since the service began."""
-    text = (await client.get("/metrics")).text
-    return {float(bound): float(count) for bound, count in _BUCKET.findall(text)}
+    counts: defaultdict[float, float] = defaultdict(float)  # of all shards
+    for bound, count in _BUCKET.findall((await client.get("/metrics")).text):
+        counts[float(bound)] += float(count)
+    return dict(sorted(counts.items()))
 
 
 def _quantile_ms(counts: dict[float, float], share: float) -> float:

@@ -85,6 +85,10 @@ class Refusals:
         """Why a change of the road is impossible, as a sentence."""
         return self._say("edits", error.code, error.facts, spoken=True)
 
+    def instead(self, error: EditError) -> tuple[str, ...]:
+        """Sentences that can be said in place of an impossible change."""
+        return (self._say("instead", error.code, error.facts),) if error.code in self._data["instead"] else ()
+
     def problem(self, problem: Problem) -> str:
         """The problem of a field, to follow its name; a whole sentence if it is unavailable."""
         return self._say("problems", problem.code, problem.facts)

@@ -52,6 +52,7 @@ EDITS: Final[Mapping[str, tuple[str, tuple[str, ...]]]] = MappingProxyType(
         "too_many_for_scenario": ("does-not-fit", ("amount", "setting", "problem")),
         "no_new_road": ("does-not-fit", ("problem",)),
         "occupied": ("occupied", ("column", "row", "id")),
+        "row_is_taken": ("occupied", ("lane", "row", "id", "kind", "free_row")),
         "none_there": ("none-there", ("kind", "place")),
         "no_such_thing": ("none-there", ("id",)),
         "no_such_ego": ("none-there", ("id",)),

@@ -7,15 +7,16 @@ this file and not the reverse. No word of any language is here either.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 from pydantic import ValidationError
 
 from service.actions import Ask, load
 from service.grammar.asking import Asking, once
-from service.grammar.clause import Divided
+from service.grammar.clause import Clause, Divided
 from service.grammar.contradictions import contradiction
-from service.grammar.fragments import Fragment
+from service.grammar.fragments import STOP, Fragment
 from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.noun_phrases import QUANTITY, add_noun_phrases
 from service.grammar.order import orders
@@ -75,6 +76,8 @@ class Reading(Asking):
         )
         if question is not None:
             return self._ask(question) if asking else self._refuse([self._plain], ())
+        if (denied := _denied_beside_question(clauses)) is not None:
+            return self._refuse([self._written(denied.start, denied.end)], (), asking=asking)
         if not (found := orders(clauses, self._lattice)):
             return self._refuse([self._plain.strip()], ())
         clauses, *otherwise = found
@@ -150,3 +153,12 @@ class Reading(Asking):
         if not isinstance(parsed, Understood):
             return None
         return Understood(self._text, parsed.actions, self._corrections, parsed.supposes)
+
+
+def _denied_beside_question(clauses: Sequence[Clause]) -> Clause | None:
+    """What is denied in one breath with a question and so belongs to it: "and not left"."""
+    for before, clause in pairwise(clauses):
+        asked = before.actions and all(action["do"] == "ask" for action in before.actions)
+        if asked and clause.negated and clause.after != STOP:
+            return clause
+    return None

@@ -23,20 +23,13 @@ class Status:
 
     def _status(self, run: SimState) -> str:
         world = run.world
-        if world.outcome is not Outcome.RUNNING:
-            outcome = self._sayings.say("answers", "outcomes", world.outcome)
-            return self._say("status_ended", episode=world.episode, outcome=outcome, tick=world.tick)
         column, row = world.road.cell(world.av)
         rows = self._sayings.say("answers", "rows", "one" if row == 1 else "many", count=row)
-        told = self._say(
-            "status",
-            lane=column + 1,
-            row=row,
-            rows=rows,
-            metres=self._sayings.number(row * run.config.cell_m),
-            tick=world.tick,
-            episode=world.episode,
-        )
+        place = {"lane": column + 1, "rows": rows, "metres": self._sayings.number(row * run.config.cell_m)}
+        if world.outcome is not Outcome.RUNNING:
+            outcome = self._sayings.say("answers", "outcomes", world.outcome)
+            return self._say("status_ended" if row else "status_arrived", outcome=outcome, **place)
+        told = self._say("status", **place)
         return f"{told} {self._say('status_manual')}" if run.mode is Mode.MANUAL else told
 
     def _say(self, key: str, **parts: object) -> str:

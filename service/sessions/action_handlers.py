@@ -116,7 +116,9 @@ def _apply(
 def _refused(transaction: Transaction, error: EditError, position: int) -> Invalid:
     sentence = transaction.refusals.edit(error)
     kind = NotAvailable if error.category == "not-available" else DoesNotFit
-    return kind(sentence, errors=[FieldProblem(f"actions.{position}.{error.field}", sentence)])
+    errors = [FieldProblem(f"actions.{position}.{error.field}", sentence)]
+    instead = transaction.refusals.instead(error)
+    return kind(sentence, errors=errors, suggestions=instead) if instead else kind(sentence, errors=errors)
 
 
 @handles(Goal)

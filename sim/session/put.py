@@ -12,9 +12,9 @@ from sim.session.errors import EditError
 from sim.session.locate import Place, lanes_named, place_for_adding
 from sim.session.pick import random_draws
 from sim.state import SimState
-from sim.types import KINDS, Cell, Kind
+from sim.types import KINDS, Cell, Kind, kind_of
 from sim.world import World
-from sim.world.grid import Board, Road, bits
+from sim.world.grid import Board, Road, bits, union
 
 
 def with_world(state: SimState, world: World) -> SimState:
@@ -53,11 +53,43 @@ def cells_for(state: SimState, kind: Kind, count: int, where: Where | None) -> l
     """
     if where is None or where.each is None:
         return _chosen(state, kind, count, where)
-    cells = []
-    for column in lanes_named(where, state.world.road):
+    columns = lanes_named(where, state.world.road)
+    cells: list[int] = []
+    taken: EditError | None = None
+    for column in columns:
         lane = replace(where, each=None, lanes=None, lane=column + 1)
-        cells += _chosen(state, kind, count, lane)
+        try:
+            cells += _chosen(state, kind, count, lane)
+        except EditError as error:
+            if error.code != "occupied":
+                raise
+            taken = error
+            if not _stands_there(error, kind):
+                if len(columns) < state.world.road.columns:
+                    raise
+                raise _with_a_free_row(error, state.world, kind, columns) from error
+    if taken is not None and not cells:
+        raise taken
     return cells
+
+
+def _stands_there(error: EditError, kind: Kind) -> bool:
+    """Whether a cell is taken by just what is to be put there, and stays so."""
+    return kind.fixed and kind_of(error.facts["id"]) is kind
+
+
+def _with_a_free_row(error: EditError, world: World, kind: Kind, columns: Sequence[int]) -> EditError:
+    """The refusal of a row in which a lane is taken, with the nearest row on that side in which none is."""
+    road, (column, row) = world.road, (error.facts["column"], error.facts["row"])
+    lanes = union(road.column(each) for each in columns)
+    own = road.cell(world.av)[1]
+    side = range(1, own) if row < own else range(own + 1, road.rows - 1)
+    free = [each for each in side if not road.row(each) & lanes & world.occupied]
+    if not free:
+        return error
+    nearest = min(free, key=lambda each: (abs(each - row), each))
+    lane, who = column + 1, error.facts["id"]
+    return EditError("row_is_taken", error.field, lane=lane, row=row, id=who, kind=kind, free_row=nearest)
 
 
 def _chosen(state: SimState, kind: Kind, count: int, where: Where | None) -> list[int]:

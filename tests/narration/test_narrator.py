@@ -33,7 +33,7 @@ from sim.config import Config
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
-from sim.types import Mode, Move
+from sim.types import Mode, Move, Outcome
 from tests.support.moments import moments
 from tests.support.narration_checks import ids_in, looks_like_sentences
 from tests.support.roads import road, run_on
@@ -99,6 +99,24 @@ def test_questions_about_what_is_not_so_are_answered_exactly(ask: dict[str, obje
     for _ in range(3):
         timeline.advance()
     assert words in str(answer(timeline, **ask)["text"])
+
+
+@pytest.mark.parametrize(
+    ("rows", "told"),
+    [
+        (("....", ".A..", "....", "...."), "This drive has ended (arrived): I am at the goal, in lane 2"),
+        (
+            ("....", "####", ".A..", "...."),
+            "This drive has ended (stuck) in lane 2, 2 rows (10 m) from the goal",
+        ),
+    ],
+)
+def test_an_ended_drive_tells_where_it_ended(rows: tuple[str, ...], told: str) -> None:
+    timeline = Timeline(run_on(road(*rows)).config)
+    timeline.state = run_on(road(*rows))
+    while timeline.state.world.outcome is Outcome.RUNNING:
+        timeline.advance()
+    assert answer(timeline, about="status")["text"] == f"{told}."
 
 
 OPEN = run_on(road("........", "...o....", "......>.", ".o......", "...A...."))

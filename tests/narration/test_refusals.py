@@ -8,8 +8,11 @@ from typing import Any
 import pytest
 import yaml
 
+from service.grammar.engine import Language
+from service.grammar.parse_types import Understood
 from service.refusals import Refusals, refusals
 from service.resources import prompts_folder
+from sim.actions import Add, PlaceableKind, Where
 from sim.codes import ADVICE, EDITS, PROBLEMS
 from sim.config import Config, ConfigError, Problem
 from sim.generation import GenerationError
@@ -30,6 +33,7 @@ FACTS: dict[str, tuple[Any, Any]] = {
     "driven": (509, 7),
     "draws": (419, 200),
     "free": (421, 1),
+    "free_row": (547, 2),
     "high": (431.0, 1000),
     "id": ("pothole-433", "av-1"),
     "kind": (Kind.POTHOLE, "everything"),
@@ -121,7 +125,7 @@ def test_a_kind_without_words_goes_by_its_name(language: str, code: str) -> None
 
 def keys(data: Mapping[str, Any], path: str = "") -> Iterator[str]:
     """Every key under which a sentence stands."""
-    for section in ("edits", "problems", "advice", "rules", "session", "pace"):
+    for section in ("edits", "instead", "problems", "advice", "rules", "session", "pace"):
         yield from (f"{path}{section}.{code}" for code in data[section])
 
 
@@ -209,3 +213,14 @@ def test_an_error_has_a_listed_code_and_its_facts() -> None:
         Problem("rows", "no_such_lane")
     assert str(EditError("no_such_lane", "where", lane=9, lanes=8)) == "no such lane (lane=9, lanes=8)"
     assert str(ConfigError((Problem("rows", "too_many", room=4),))) == "rows: too many (room=4)"
+
+
+@pytest.mark.parametrize("kind", ["barrier", "pothole", "vehicle", "pedestrian"])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_offered_instead_is_understood(language: str, kind: PlaceableKind) -> None:
+    taken = EditError("row_is_taken", "where", lane=3, row=9, id="vehicle-1", kind=Kind(kind), free_row=7)
+    (offered,) = refusals(language).instead(taken)
+    parsed = Language.load(language).parse(offered)
+    assert isinstance(parsed, Understood), offered
+    assert parsed.actions == (Add(kind=kind, count=1, where=Where(each="lane", row=7)),)
+    assert refusals(language).instead(EditError("no_such_lane", "where", lane=9, lanes=8)) == ()

@@ -164,6 +164,27 @@ def test_a_number_holds_for_each_lane() -> None:
     assert {thing.cell[0] for thing in less.removed} == {0, 1}
 
 
+@pytest.mark.parametrize(("row", "free_row"), [(3, 1), (1, None)])
+def test_a_taken_lane_is_told_with_the_nearest_free_row(row: int, free_row: int | None) -> None:
+    traffic = run_on(road(".......", ".......", "..>....", ".<.....", "...A...", "......."))
+    if free_row is None:
+        traffic = run_on(road(".......", ".>.....", "..>....", ".<.....", "...A...", "......."))
+    error = refusal(traffic, Add(kind="barrier", count=1, where=Where(each="lane", row=row)))
+    assert error.category == "occupied"
+    assert error.facts.get("free_row") == free_row
+    if free_row is not None:
+        there = apply(traffic, Add(kind="barrier", count=1, where=Where(each="lane", row=free_row)))
+        assert [thing.cell for thing in there.added] == [(column, free_row) for column in range(7)]
+
+
+def test_a_row_that_is_half_closed_is_closed() -> None:
+    closing = Add(kind="barrier", count=1, where=Where(each="lane", row=1))
+    half = run_on(road(".......", "#.##...", ".......", ".......", "...A...", "......."))
+    closed = apply(half, closing)
+    assert [thing.cell for thing in closed.added] == [(1, 1), (4, 1), (5, 1), (6, 1)]
+    assert refusal(closed.state, closing).code == "occupied"
+
+
 @pytest.mark.parametrize(
     ("side", "cell"), [("ahead", (5, 0)), ("behind", (5, 2)), ("left", (4, 1)), ("right", (6, 1))]
 )
