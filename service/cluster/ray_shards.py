@@ -1,10 +1,10 @@
-"""Shards as Ray actors: one for each worker and a spare, never one for a session.
+"""Shards as Ray actors: one for each worker and some in reserve, never one for a session.
 
 Only this module imports Ray.
 
 Ray places the actors (spread over the machines of a cluster), sees a process or a machine die, and starts it
-again. Meanwhile the spare takes its place, as it has loaded everything before. No request passes through Ray:
-the entry talks to the shards over sockets.
+again. Meanwhile one in reserve takes its place, as it has loaded everything before. No request passes through
+Ray: the entry talks to the shards over sockets.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from ray.util import get_node_ip_address
 
 from service.cluster.places import Place, Places, ShardsNotStartedError
 from service.cluster.shard_process import STOP_S, ShardProcess
+from service.cluster.standby import Standby, processes_of_node
 from service.settings import Settings
 from service.sharding import Shard
 from service.version import VERSION
@@ -57,8 +58,9 @@ class RayShard:
         self._shard = ShardProcess(settings, token, _LOOPBACK if loopback else _own_address())
         self._calling = ThreadPoolExecutor(1, "others")
 
-    def ready(self) -> None:
-        """Return: whoever waits for this knows that the process is there."""
+    def ready(self) -> str:
+        """The node that the process is on; whoever waits for this knows that it is there."""
+        return str(ray.get_runtime_context().get_node_id())
 
     def become(self, shard: Shard, others: list[str]) -> Place:
         """Become a shard; `others`: the names of all other processes."""
@@ -103,11 +105,12 @@ class RayShards:
         self._count = settings.workers
         self.places = Places(self._count)
         self._up = asyncio.Event()
-        self._names = [f"roadtalk-{token[:8]}-{each}" for each in range(self._count + SPARES)]
         self._given = (settings_of_shard(settings), token, settings.ray_address is None)
+        nodes = sum(bool(each["Alive"]) for each in ray.nodes())  # type: ignore[no-untyped-call]
+        processes = nodes * processes_of_node(self._count, nodes) if nodes > 1 else self._count + SPARES
+        self._names = [f"roadtalk-{token[:8]}-{each}" for each in range(processes)]
         self._actors = [self._start(name) for name in self._names]
-        self._spare: asyncio.Queue[int] = asyncio.Queue()
-        """processes that are ready to become a shard"""
+        self._standby = Standby(processes if nodes > 1 else 1)
 
     def _start(self, name: str) -> Any:
         return (
@@ -139,7 +142,7 @@ class RayShards:
         """Give a shard to a process that is ready, and to another one whenever that dies."""
         number, starts = shard.number, 0
         while True:
-            process = await self._spare.get()
+            process = await self._standby.take()
             actor = self._actors[process]
             others = [name for name in self._names if name != self._names[process]]
             try:
@@ -157,15 +160,16 @@ class RayShards:
             except RayActorError:
                 pass
             _LOG.error("a shard died and is replaced", shard=number)
+            self._standby.leave(process)
             self.places.set(number, None)
             starts += 1
             self._group.create_task(self._return(process))
 
     async def _return(self, process: int) -> None:
-        """Make a process a spare one as soon as it is there."""
+        """Put a process in reserve as soon as it is there."""
         while True:
             try:
-                await self._actors[process].ready.remote()
+                node = await self._actors[process].ready.remote()
             except ActorDiedError as error:  # Ray starts no other, since this one failed of itself
                 if not self._up.is_set():
                     raise ShardsNotStartedError(f"A shard cannot be started: {_cause(error)}") from error
@@ -175,7 +179,7 @@ class RayShards:
             except RayActorError:
                 await asyncio.sleep(LOOK_AGAIN_S)
             else:
-                self._spare.put_nowait(process)
+                await self._standby.add(process, node)
                 return
 
     def stop(self) -> None:
