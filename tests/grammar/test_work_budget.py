@@ -78,7 +78,9 @@ def test_a_text_costs_the_same_every_time(language: Language) -> None:
 def test_what_costs_too_much_is_refused_and_says_what_helps(language: Language, german: Language) -> None:
     for each, said in ((language, "Say it in two parts"), (german, "in zwei Teilen")):
         work = WorkBudget(READ_STEPS)
-        parsed = each.parse("add 3417 cones", ALONE, work)  # no other test says it: what is known costs nothing
+        parsed = each.parse(
+            "add 3417 cones", ALONE, work
+        )  # no other test says it: what is known costs nothing
         assert isinstance(parsed, Refused)
         assert (parsed.reason, parsed.unparsed) == ("not_understood", ())
         assert said in parsed.message
