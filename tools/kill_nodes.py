@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import statistics
 from contextlib import ExitStack
+from pathlib import Path
 
-import psutil  # type: ignore[import-untyped]
 from ray.cluster_utils import Cluster
 
 from tests.support.postgres import binaries, serving
@@ -37,12 +38,8 @@ class TwoNodes(ShardedService):
 
     def kill(self, number: int) -> None:  # noqa: ARG002
         """Kill the second node with all its processes: the first one holds the cluster's directory."""
-        for each in self._processes():
-            each.kill()
-
-    def _processes(self) -> list[psutil.Process]:
-        raylet = psutil.Process(self._second.all_processes["raylet"][0].process.pid)
-        return [raylet, *raylet.children(recursive=True)]
+        for each in _with_children(self._second.all_processes["raylet"][0].process.pid):
+            os.kill(each, signal.SIGKILL)
 
     def stop(self) -> None:
         """The service gracefully, then the cluster."""
@@ -50,6 +47,21 @@ class TwoNodes(ShardedService):
             super().stop()
         finally:
             self._cluster.shutdown()  # type: ignore[no-untyped-call]
+
+
+def _with_children(process: int) -> list[int]:
+    """A process and all that it has started, and those have."""
+    parents = {
+        int(each.parent.name): int(each.read_text().rpartition(")")[2].split()[1]) for each in _stats()
+    }
+    found = [process]
+    for known in found:
+        found += [child for child, parent in parents.items() if parent == known]
+    return found
+
+
+def _stats() -> list[Path]:
+    return [each for each in Path("/proc").glob("[0-9]*/stat") if each.exists()]
 
 
 def _median(values: list[float]) -> float:
