@@ -11,7 +11,7 @@ import argparse
 import os
 import signal
 import statistics
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 from ray.cluster_utils import Cluster
@@ -51,17 +51,14 @@ class TwoNodes(ShardedService):
 
 def _with_children(process: int) -> list[int]:
     """A process and all that it has started, and those have."""
-    parents = {
-        int(each.parent.name): int(each.read_text().rpartition(")")[2].split()[1]) for each in _stats()
-    }
+    parents = {}
+    for each in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):  # it has ended meanwhile
+            parents[int(each.parent.name)] = int(each.read_text().rpartition(")")[2].split()[1])
     found = [process]
     for known in found:
         found += [child for child, parent in parents.items() if parent == known]
     return found
-
-
-def _stats() -> list[Path]:
-    return [each for each in Path("/proc").glob("[0-9]*/stat") if each.exists()]
 
 
 def _median(values: list[float]) -> float:
