@@ -8,7 +8,7 @@ tick that becomes due meanwhile is run afterwards.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from typing import TYPE_CHECKING
 
 import structlog
@@ -16,12 +16,14 @@ import structlog
 from service.sessions.latest_decision import LatestDecision
 from service.sessions.part import SessionPart
 from service.sessions.scheduler.external_planner import ExternalPlanner
-from service.sessions.scheduler.live_decision import LiveDecision
+from service.sessions.scheduler.live_decision import LiveDecision, deciding_parts, is_dear_to_decide
 from service.sessions.scheduler.playback_speed import is_accelerated, ticks_of_turn
 from service.sessions.utterance import Utterance
 from sim.actions import SetMode
 from sim.explain.summary import long_to_tell
+from sim.fast_replace import fast_constructor
 from sim.plan import Decision
+from sim.plan.safe_planning import is_foreign
 from sim.session.timeline import PlannerSilentError
 from sim.session.triggers import pauses
 from sim.state import SimState, StepResult
@@ -31,6 +33,8 @@ if TYPE_CHECKING:
     from service.sessions.session import Session
 
 _LOG = structlog.get_logger(__name__)
+
+_latest = fast_constructor(LatestDecision, "key", "state", "decision")
 
 
 class LiveTicks(SessionPart):
@@ -44,6 +48,8 @@ class LiveTicks(SessionPart):
         )
         self._held = False
         self._due = False
+        self._decided_here: Hashable = None
+        """the `deciding_parts` for which it is known that every decision is taken on the event loop"""
 
     @property
     def held(self) -> bool:
@@ -80,14 +86,26 @@ class LiveTicks(SessionPart):
                 or (session.feed.narrating and is_accelerated(session.playback_speed))
             ):
                 return
-            if self._external_planner.busy or self._external_planner.ask(session.run):
-                return  # a planner of another package decides this one, and nobody waits for it here
-            if self._live_decision.busy:
-                self._say_slowed()
-                return
-            if self._live_decision.ask(session.run):
+            if self._decided_elsewhere(session.run):
                 return
             self._tick_once()
+
+    def _decided_elsewhere(self, run: SimState) -> bool:
+        """Whether the next decision is taken, or awaited, elsewhere; nobody waits for it here."""
+        decided_by = deciding_parts(run)
+        if decided_by is not None and decided_by == self._decided_here:
+            return False
+        self._decided_here = None
+        if self._external_planner.busy or self._external_planner.ask(run):
+            return True
+        if self._live_decision.busy:
+            self._say_slowed()
+            return True
+        if self._live_decision.ask(run):
+            return True
+        if decided_by is not None and not is_foreign(run.config.planner) and not is_dear_to_decide(run):
+            self._decided_here = decided_by
+        return False
 
     def fail(self, error: Exception) -> None:
         """Pause and log a defect of the rules, rather than fail twice a second."""
@@ -135,7 +153,7 @@ class LiveTicks(SessionPart):
         except PlannerSilentError as silence:
             self._start_manual_override(silence)
             return
-        session.latest = LatestDecision((session.sequence, session.timeline.tick), before, tick.decision)
+        session.latest = _latest((session.sequence, tick.state.world.tick), before, tick.decision)
         if tick.events and long_to_tell(tick.state):
             session.feed.narrate_in_thread(tick.state, tick)
             session.feed.publish_tick(before, tick, ())

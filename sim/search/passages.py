@@ -13,8 +13,10 @@ from typing import Final
 from sim.rules.ego_step import beside
 from sim.world.grid import Board, Road
 
-KEPT: Final = 64
-"""Roads whose ways are kept: those a session, its forks and an explanation's reruns are about."""
+KEPT: Final = 8_192
+"""Roads whose ways are kept: those of all live sessions of a process, which ask in turn, and of explanations.
+
+Where there are more sessions than roads are kept, none is found again. A usual road takes some 700 bytes."""
 
 
 @dataclass(frozen=True, slots=True)

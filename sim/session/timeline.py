@@ -339,9 +339,11 @@ class Timeline:
             self._track.note(tick.decision)
         else:
             self._track.note(*[steps[id].decision if id in steps else None for id in egos])
-        fired = ACTION_WORK * sum(event.type is EventType.TRIGGERED for event in tick.events)
-        look = _look_work(tick.state)
-        again = look + 1 + fired + _road_work(tick.state, tick.events)
+        look, events = _look_work(tick.state), tick.events
+        again = look + 1
+        if events:
+            fired = ACTION_WORK * sum(event.type is EventType.TRIGGERED for event in events)
+            again += fired + _road_work(tick.state, events)
         self._worked(look + _tick_work(tick.state), again, entries)
 
     def _worked(self, work: int, again: int, entries: int) -> None:
@@ -435,6 +437,6 @@ def _action_work(applied: Applied) -> int:
 
 
 def _road_work(state: SimState, events: Sequence[Event]) -> int:
-    if not events or not any(event.type in _DRAWN for event in events):
+    if not any(event.type in _DRAWN for event in events):
         return 0
     return ROAD_WORK + state.world.road.columns * state.world.road.rows // ROAD_CELLS

@@ -7,7 +7,7 @@ the log says so once. All else goes on, other dear sessions in their turn.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 
 from service.problems import Stopped
 from service.sessions.worker_calls import decide
@@ -83,3 +83,8 @@ def is_dear_to_decide(run: SimState) -> bool:
     if state_tick_units(run) <= LIVE_INLINE:
         return False
     return not any(is_foreign(run.config_of(id).planner) for id in run.egos)
+
+
+def deciding_parts(run: SimState) -> Hashable:
+    """All that it hangs on where the decisions of the only ego are taken; None where there are several."""
+    return (run.config, run.ego().planner, run.world.road) if len(run.egos) == 1 else None

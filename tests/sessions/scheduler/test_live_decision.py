@@ -135,3 +135,20 @@ async def test_the_latest_decision_is_kept_and_taken_anew_elsewhere_where_it_is_
     assert found is not None
     assert found[0] == session.timeline.decision(1)
     service.manager.work.stop()
+
+
+async def test_a_session_that_becomes_dear_is_decided_elsewhere_from_the_next_tick_on(lane: _Lane) -> None:
+    service = Service()
+    session = await service.session(Config(seed=2, columns=40, rows=60, planner="priority"))
+    service.clock.tick(2)
+    await settle()
+    assert (session.timeline.tick, len(lane.asked)) == (2, 0)
+    await do(session, {"do": "set", "parameter": "planner", "value": "astar"})
+    service.clock.tick()
+    await settle()
+    assert (session.timeline.tick, len(lane.asked)) == (2, 1)
+    await lane.answer()
+    await do(session, {"do": "undo"})
+    service.clock.tick(2)
+    await settle()
+    assert (session.timeline.tick, len(lane.asked)) == (5, 0)

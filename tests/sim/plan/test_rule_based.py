@@ -226,3 +226,13 @@ def test_it_does_not_swing_left_and_right() -> None:
         signs = "".join("s" if move in (Move.LEFT, Move.RIGHT) else "." for move in state.record.move_list())
         swings += "ssssss" in signs
     assert swings <= 1
+
+
+def test_the_ways_of_many_roads_driven_in_turn_are_found_once_each() -> None:
+    """As thousands of live sessions are: each ticks, then all others, then it again."""
+    states = [SimState.start(Config(seed=seed)) for seed in range(200)]
+    states = [step(state).state for state in states]
+    found = ways_past.cache_info().misses
+    for _ in range(3):
+        states = [step(state).state for state in states]
+    assert ways_past.cache_info().misses == found
