@@ -165,10 +165,8 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
     begin, start = start, _past_glue(lattice, start, end)
     if start == end:
         return None
-    if (opened := _longest(lattice, start, TEACH)) is not None:
-        taught = _taught(lattice, opened, end, divide)
-        if taught is not None or _longest(lattice, start, IF) is None:  # "wenn ich …" may suppose as well
-            return taught
+    if (taught := _longest(lattice, start, TEACH)) is not None:
+        return _taught(lattice, taught, end, divide)
     failed: Fragment | None = None
     cut: tuple[int, list[dict[str, Any]]] | None = None
     for first, last, stop in _conditions(lattice, start, end):
