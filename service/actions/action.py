@@ -31,9 +31,11 @@ from service.actions.questions import (
     OtherName,
     OutlookName,
     PlannersName,
+    PolicyName,
     QuestionName,
     QuestionTraits,
     SightName,
+    SoonerName,
     Term,
     WorldName,
 )
@@ -61,6 +63,8 @@ from sim.types import Move
 Phrase = Annotated[str, MinLen(1), MaxLen(80)]
 MAX_MEANT = 50
 """How many actions a what-if or a taught phrase may hold."""
+MAX_AHEAD = 100
+"""Ticks after which it may be asked where another road user is."""
 MAX_PLANNERS = 8
 """How many planners one question may name."""
 
@@ -102,6 +106,8 @@ class Ask:
         | BlameName
         | PlannersName
         | MomentName
+        | PolicyName
+        | SoonerName
         | SightName
         | WorldName
         | None
@@ -114,7 +120,7 @@ class Ask:
     """the same in seconds"""
     count: Annotated[int, Ge(1), Le(1000)] | None = None
     """how many of the latest changes are meant, or moments looked for; 1 of a kind of things: the nearest; of
-    a what if, how many times it is done: moves, one a tick"""
+    a what if, how many times it is done: moves, one a tick; of another one, after how many ticks"""
     how: DetailName | None = None
     which: Which | None = None
     planners: Annotated[tuple[PlannerName, ...], MinLen(1), MaxLen(MAX_PLANNERS)] | None = None
@@ -139,8 +145,15 @@ class Ask:
             raise ValueError("of the past, only what was passed and stops are asked of a kind of things")
         if self.about == "sight" and (self.kind is None) is (self.what == "detection"):
             raise ValueError("of sensing, detection and nothing else is asked of a kind of things")
-        if self.about == "what_if" and (self.change is None) is (self.move is None):
-            raise ValueError("say exactly one of 'change' and 'move'")
+        supposed = self.what in (*get_args(PolicyName), *get_args(SoonerName))
+        if self.about == "what_if" and sum((self.change is not None, self.move is not None, supposed)) != 1:
+            raise ValueError("say exactly one of 'change' and 'move', or what is supposed of the drive")
+        if (
+            self.about == "other"
+            and self.count is not None
+            and (self.what != "going" or self.count > MAX_AHEAD)
+        ):
+            raise ValueError("'count' is of where another one goes, within some ticks")
         if self.about == "what_if" and self.count is not None and self.change is None:
             raise ValueError("'count' says how many times a 'change' is made")
         if self.what is not None:

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import Final, Literal, get_args
 
 from service.actions.action import Ask
-from service.actions.questions import PlannersName
+from service.actions.questions import WHATS, PlannersName
 
 Moment = Literal["decision", "state", "drive", "present", "none"]
 """`decision`: the one taken at the tick; `state`: how it stood then; `drive`: the whole episode of the tick;
@@ -33,6 +33,7 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
         ("history", what): "decision"
         for what in ("seen", "similar", "choices", "runner_up", "scores", "needed")
     },
+    **{(about, what): "state" for about in ("why", "why_not", "what_if") for what in WHATS[about]},
     **{("history", what): "state" for what in ("waited", "passed", "stopped", "lanes_used")},
     **{("planners", what): "decision" for what in _OF_A_DECISION},
     **{("planners", what): "none" for what in get_args(PlannersName) if what not in _OF_A_DECISION},

@@ -190,6 +190,14 @@ OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
 MomentName = Literal["detour"]
 """What moment is asked about, in place of a tick: the latest move to the side or diagonally."""
+PolicyName = Literal["straight", "stand", "in_lane", "nonstop"]
+"""By what rule it is supposed to drive: `straight`: forward in every tick; `stand`: staying in every tick;
+`in_lane`: in one lane; `nonstop`: without staying.
+"""
+SoonerName = Literal["sooner_stop", "sooner_change", "longer_wait"]
+"""What is supposed of this drive so far: its latest stop or lane change a tick sooner, or that stop
+a tick longer.
+"""
 DetailName = Literal["shorter", "longer", "why", "before", "after"]
 """How the last explanation is wanted again; before and after are the decisions next to it."""
 Choosable = Literal["view", "preference", "road", "layout"]
@@ -282,7 +290,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "what_if": QuestionTraits(
         ("change", "move", "what", "tick", "ticks", "seconds", "count"), runs_episodes=True
     ),
-    "next": QuestionTraits(),
+    "next": QuestionTraits(("kind",), runs_episodes=True),
     "scene": QuestionTraits(("kind", "count")),
     "status": QuestionTraits(),
     "metrics": QuestionTraits(("metric",)),
@@ -300,7 +308,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "pending": QuestionTraits(),
     "detail": QuestionTraits(("how",), ("how",), runs_episodes=True),
     "other": QuestionTraits(
-        ("what", "which", "move", "tick", "ticks", "seconds"), ("what", "which"), runs_episodes=True
+        ("what", "which", "move", "tick", "ticks", "seconds", "count"), ("what", "which"), runs_episodes=True
     ),
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
     "outlook": QuestionTraits(("what", "move", "ticks", "seconds"), ("what",), runs_episodes=True),
@@ -315,7 +323,8 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
 }
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
-    **dict.fromkeys(("why", "why_not", "what_if"), get_args(MomentName)),
+    **dict.fromkeys(("why", "why_not"), get_args(MomentName)),
+    "what_if": (*get_args(MomentName), *get_args(PolicyName), *get_args(SoonerName)),
     "history": get_args(HistoryName),
     "other": get_args(OtherName),
     "outlook": get_args(OutlookName),
@@ -342,6 +351,8 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "next_change": (frozenset(),),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),
+    **dict.fromkeys(get_args(PolicyName), (frozenset(), frozenset(("tick",)))),
+    **dict.fromkeys(get_args(SoonerName), (frozenset(),)),
     **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
     **dict.fromkeys(
         ("here", "compare"),

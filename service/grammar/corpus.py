@@ -11,7 +11,7 @@ from typing import Any, get_args
 from pydantic import ValidationError
 
 from service.actions import QUESTIONS, WHATS, ChatKind, Choosable, MetricName, Term, ViewName, load
-from service.actions.questions import DetailName
+from service.actions.questions import DetailName, PolicyName, SoonerName
 from service.grammar.sentences import Sentences, Unsayable
 from service.styles import styles
 from sim.actions import (
@@ -175,6 +175,8 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "metrics", "metric": metric}
     yield {"do": "ask", "about": "what_if", "change": [{"do": "add", "kind": "pothole", "count": 5}]}
     yield {"do": "ask", "about": "what_if", "change": [{"do": "drive", "move": "stay"}], "count": 5}
+    for what in (*get_args(PolicyName), *get_args(SoonerName)):
+        yield {"do": "ask", "about": "what_if", "what": what}
     for parameter in get_args(Parameter):
         yield {"do": "ask", "about": "setting", "parameter": parameter}
         for value in CHOICES.get(parameter, ()):

@@ -27,7 +27,7 @@ from service.grammar.time_clauses import TIME
 ENGINE_CONCEPTS = frozenset(
     {GLUE, NAME, NUMBER, UNIT, SECOND, COLON, QUANTITY, ALLOWS, NEGATION, SEPARATOR, SPEAKER}
     | {"interjection", "tag", "name_end", "name_tail", "quotes", "unsupported", "captures"}
-    | {"what_if", "if", "then_what", "what_if_tail", "teach", "means"}
+    | {"what_if", "if", "then_what", "what_if_tail", "teach", "means", "supposed_drive"}
     | {
         "refers",
         "taught",

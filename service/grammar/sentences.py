@@ -255,6 +255,8 @@ class Sentences(RuleSentences):
             case "why" | "why_not" | "what_if" if ask.what is not None:
                 form = "had_moved" if ask.about == "what_if" else "asked"
                 move = "" if ask.move is None else self._word(form, ask.move)
+                if ask.tick is not None:
+                    raise Unsayable("a way of driving from a tick on")
                 return self._say(f"{ask.about}_{ask.what}", move=move)
             case "why" | "why_not":
                 key: str = ask.about
@@ -278,9 +280,11 @@ class Sentences(RuleSentences):
             case "what_if" if ask.count is not None:
                 if ask.change != (Drive(move=Move.STAY),):
                     raise Unsayable("what is done several times running is standing still")
-                return self._say("what_if_stand", count=ask.count)
+                return self._say("what_if_times", count=ask.count)
             case "what_if":
                 return self._say("what_if", change=self.sentence(ask.change or ()))
+            case "next" if ask.kind is not None:
+                return self._say("next_at", thing=self._entry("things", ask.kind)[0])
             case "scene" if ask.kind is not None and ask.count is not None:
                 return self._say("scene_nearest", thing=self._entry("things", ask.kind)[0])
             case "scene" if ask.kind is not None:
@@ -332,6 +336,8 @@ class Sentences(RuleSentences):
             noun = self._entry("things", which.kind)
             words = "the_nearest" if which.nearest else "the_one"
             who = self._say(words, thing=noun[0], where="" if which.nearest else self._where(where))
+        if ask.what == "going" and ask.count is not None:
+            return self._say("other_then", who=who, count=ask.count)
         if ask.what == "going":
             return self._say("other_going", who=who)
         move = self._word("others_did", ask.move or "any")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, get_args
 
+from service.actions.questions import PolicyName
 from service.actions.table import WhatIf, verbs_where
 from service.grammar.clause import Clause, Divided
 from service.grammar.clauses import SCENARIO
@@ -23,6 +24,9 @@ STANDS = "stand_ticks"
 DRIVE = "drive"
 HAD_BEEN = "had_been"
 """Concept of words that suppose something of a past moment: "had not been there"."""
+SUPPOSED_DRIVE = "supposed_drive"
+"""Concept of whole conditions that suppose a way of driving: "you never change lanes"."""
+TICK = "tick"
 MEANS = "means"
 
 _OPENING = frozenset((WHAT_IF, IF, THEN_WHAT, TEACH))
@@ -166,6 +170,9 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
     failed: Fragment | None = None
     cut: tuple[int, list[dict[str, Any]]] | None = None
     for first, last, stop in _conditions(lattice, start, end):
+        if (driven := _drive_supposed(lattice, first, last)) is not None:
+            supposes = _end_supposed(lattice, (first, last), (start, end))
+            return Clause(begin, stop, Filled(replace(_FRAME, supposes=supposes), []), [driven])
         divided = divide(first, last, CONDITIONAL)
         found = divided.failed or _actions(divided, first, last, NO_CHANGE)
         if not isinstance(found, Fragment):
@@ -179,6 +186,22 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
         if last == end and cut is None:
             cut = _before_question(divided)
     return failed if cut is None else _what_if(begin, *cut)
+
+
+def _drive_supposed(lattice: Lattice, start: int, end: int) -> dict[str, Any] | None:
+    """The question about a way of driving, where a condition supposes that and perhaps names a tick."""
+    begins = range(start, min(_past_marks(lattice, start, end), end - 1) + 1)  # "it" may be glue as well
+    found = next((edge for at in begins if (edge := _longest(lattice, at, SUPPOSED_DRIVE))), None)
+    if found is None:
+        return None
+    asked = {"do": "ask", "about": WHAT_IF, "what": found.sense.value}
+    rest = _past_marks(lattice, found.end, end)
+    if rest >= end:
+        return asked
+    tick = _longest(lattice, rest, TICK) if found.sense.value in get_args(PolicyName) else None
+    if tick is None or _past_marks(lattice, tick.end, end) < end:
+        return None
+    return asked | {"tick": tick.sense.value}
 
 
 def _what_if(start: int, end: int, change: list[dict[str, Any]], *, past: bool = False) -> Clause:

@@ -40,7 +40,7 @@ def question(sayings: Sayings, ask: Ask) -> str:
     key = str(ask.about)
     if key == "why" and ask.move is None:
         key = "why_any"
-    if key in ("scene", "metrics") and (ask.kind or ask.metric):
+    if key in ("next", "scene", "metrics") and (ask.kind or ask.metric):
         key += "_one"
     if ask.about == "what_if" and ask.move is not None:
         key = "what_if_move"

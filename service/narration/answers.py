@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Final
 
@@ -51,8 +52,11 @@ from service.narration.world import Worlds
 from service.narration.world_facts import WorldFacts
 from service.narration.world_rules import WorldRules
 from service.sessions.facts import Advised, Answerable, Asked
+from sim.actions import Drive
 from sim.explain import QuestionError
 from sim.explain.query import latest_detour
+from sim.explain.sooner import longer_wait, sooner_change, sooner_stop
+from sim.types import Move
 
 RULES_OF_THE_WORLD: Final = (
     "moves",
@@ -162,9 +166,9 @@ class Answers:
     def _answer(self, asked: Asked) -> Json:
         """The answer to a question of the present, or of the tick that it names."""
         asked = _at_its_tick(asked)
-        if asked.ask.what == "detour":
+        if asked.ask.what in _OF_AN_EARLIER_MOVE:
             try:
-                asked = _at_the_detour(asked)
+                asked = _OF_AN_EARLIER_MOVE[asked.ask.what](asked)
             except QuestionError as error:
                 told = not_so(self._sayings, error.code, error.facts)
                 return plain(self._sayings, asked.ask, asked.timeline.state, told)
@@ -185,6 +189,37 @@ def _at_the_detour(asked: Asked) -> Asked:
     if ask.about == "why":  # that is the latest one with its move
         return replace(asked, ask=replace(ask, what=None, move=found.move))
     return replace(asked, ask=replace(ask, what=None, tick=found.tick))
+
+
+def _with_sooner_stop(asked: Asked) -> Asked:
+    """What if it had stayed a tick before its latest stop. Raises `QuestionError`."""
+    return _supposing(asked, *sooner_stop(asked.timeline))
+
+
+def _with_sooner_change(asked: Asked) -> Asked:
+    """What if it had changed lanes a tick before it did. Raises `QuestionError`."""
+    return _supposing(asked, *sooner_change(asked.timeline))
+
+
+def _with_longer_wait(asked: Asked) -> Asked:
+    """What if it had stayed a tick longer, or stays another one now. Raises `QuestionError`."""
+    return _supposing(asked, *longer_wait(asked.timeline))
+
+
+def _supposing(asked: Asked, move: Move, tick: int | None) -> Asked:
+    """What if a move had been made at a tick; None for now."""
+    if tick is None:
+        return replace(asked, ask=replace(asked.ask, what=None, change=(Drive(move=move),)))
+    return replace(asked, ask=replace(asked.ask, what=None, move=move, tick=tick))
+
+
+_OF_AN_EARLIER_MOVE: Final[Mapping[str | None, Callable[[Asked], Asked]]] = {
+    "detour": _at_the_detour,
+    "sooner_stop": _with_sooner_stop,
+    "sooner_change": _with_sooner_change,
+    "longer_wait": _with_longer_wait,
+}
+"""By `what`: the question as it is asked of a move of this drive."""
 
 
 def _meets_one_tick(ask: Ask) -> bool:

@@ -8,6 +8,7 @@ from service.contract.encode.forecast import way_json
 from service.narration.answer_length import MOST_WORDS
 from service.narration.answerer import Json, plain
 from service.narration.naming import Naming
+from service.narration.next_of_kind import NextOfKinds
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.episode_record import DetourReason
@@ -22,10 +23,13 @@ class Next:
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._of_kind = NextOfKinds(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
         run = asked.timeline.state
+        if asked.ask.kind is not None:
+            return self._of_kind.answer(asked)
         way = route_ahead(run)
         return plain(self._sayings, asked.ask, run, self._text(way)) | way_json(way)
 

@@ -42,6 +42,9 @@ class Others:
         if is_ego(id):
             return plain(self._sayings, ask, run, self._say("another_vehicle"))
         try:
+            if ask.what == "going" and ask.count is not None:
+                way = mover_way(timeline, id, ask.count)
+                return plain(self._sayings, ask, run, self._then(way)) | way_of_mover_json(way)
             if ask.what == "going":
                 way = mover_way(timeline, id)
                 return plain(self._sayings, ask, run, self._going(way)) | way_of_mover_json(way)
@@ -144,6 +147,17 @@ class Others:
                 key = "turns_there" if way.turn.move is Move.STAY else "turns_now"
                 facts["side"] = "" if way.turn.move is Move.STAY else self._say("sides", way.turn.move)
             told = self._because(way.turn, self._say("going", key, **facts), naming)
+        chance = self._say("going", "by_chance") if way.by_chance else ""
+        return within([Part(0, capital(told)), Part(1, chance)])
+
+    def _then(self, way: MoverWay) -> str:
+        """Where it is after the ticks that were asked about, seen from where the ego is now."""
+        naming = Naming(self._sayings, way.state, as_seen=False)
+        seconds = in_seconds(self._sayings, len(way.steps), way.state.config)
+        key = "then_ended" if way.ended else "then"
+        told = self._say(
+            "going", key, who=naming.thing(way.id), seconds=seconds, place=naming.place(way.cell)
+        )
         chance = self._say("going", "by_chance") if way.by_chance else ""
         return within([Part(0, capital(told)), Part(1, chance)])
 

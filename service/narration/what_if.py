@@ -12,6 +12,7 @@ from service.narration.futures_told import yes_and_no
 from service.narration.had_been import HadBeen
 from service.narration.moves_asked import MovesAsked
 from service.narration.naming import Naming
+from service.narration.policies import Policies
 from service.narration.rearranged import supposed_rearranged
 from service.narration.sayings import Sayings
 from service.narration.supposed_ends import agrees
@@ -58,10 +59,13 @@ class WhatIfs:
         self._foils = Foils(sayings)
         self._had_been = HadBeen(sayings)
         self._in_order = MovesAsked(sayings)
+        self._policies = Policies(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`. What cannot be done is answered too, and nothing is run for it."""
         ask, timeline = asked.ask, asked.timeline
+        if ask.what is not None:
+            return self._policies.answer(asked)
         if ask.move is not None:
             return self._foils.supposed(asked)
         change = ask.change or ()

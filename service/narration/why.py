@@ -14,6 +14,7 @@ from service.sessions.facts import Asked
 from sim.explain import QuestionError, why, why_not
 from sim.explain.crash import led_to_crash
 from sim.explain.effort import Effort
+from sim.types import Move
 
 
 class Whys:
@@ -44,7 +45,8 @@ class Whys:
             else:
                 explanation = why(timeline, ask.tick, ask.move, effort=effort)
         except QuestionError as error:
-            return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
+            text = not_so(self._sayings, error.code, error.facts)
+            return plain(self._sayings, ask, timeline.state, f"{text}{self._paused(asked)}")
         text = self._explained.text(
             explanation,
             detailed=asked.length == "longer",
@@ -54,6 +56,12 @@ class Whys:
         return plain(self._sayings, ask, timeline.state, text) | explanation_json(
             explanation, self._options.texts(explanation.decision)
         )
+
+    def _paused(self, asked: Asked) -> str:
+        """That the clock stands, where it is asked why it stopped and no stop of the drive is the reason."""
+        if not asked.paused or asked.ask.about != "why" or asked.ask.move is not Move.STAY:
+            return ""
+        return "" if asked.ask.tick is not None else f" {self._sayings.say('answers', 'paused')}"
 
     def _about_a_crash(self, asked: Asked) -> bool:
         return asked.supposes == "crash" or led_to_crash(asked.timeline, asked.ask.tick)

@@ -187,7 +187,11 @@ def _set_playback_speed(transaction: Transaction, action: Set | Adjust, position
 @handles(Ask)
 def _ask(transaction: Transaction, action: Ask, _sequence: int, _position: int) -> Asked:
     return Asked(
-        action, transaction.timeline.copy(), playback_speed=transaction.playback_speed, talk=transaction.talk
+        action,
+        transaction.timeline.copy(),
+        playback_speed=transaction.playback_speed,
+        talk=transaction.talk,
+        paused=transaction.paused,
     )
 
 

@@ -72,6 +72,8 @@ class Asked:
     """`shorter` or `longer`, where an answer is wanted so"""
     viewed: int | None = None
     """the past tick that was looked at when it was asked"""
+    paused: bool = False
+    """whether the clock stood"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-from sim.explain.futures import find_ends
+from sim.explain.futures import Ends, find_ends
 from sim.explain.question_error import QuestionError
 from sim.plan import traits_of
 from sim.state import FIRST, SimState
@@ -50,6 +50,11 @@ def chances(
         ends, drawn, _, _ = find_ends(state, ego or FIRST, most=most, seen=seen)
     except QuestionError:
         return None
+    return shares(ends, drawn)
+
+
+def shares(ends: Ends, drawn: int | None) -> Chances:
+    """The chances of the ends of futures; `drawn`: how many were drawn, None where every one was run."""
     mass = dict.fromkeys((*Outcome, None), 0.0)
     for (outcome, _), chance in ends.items():
         mass[outcome] += chance

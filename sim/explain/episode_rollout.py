@@ -151,7 +151,7 @@ def is_driven_in_words(state: SimState, ego: str | None = None) -> bool:
     config, world = state.config_of(ego), state.world
     if not traits_of(config.planner).plans_to_goal:
         return True
-    return (config.max_ticks + 1 - world.episode_tick) * _work(world.road) <= MAX_WORK
+    return (config.max_ticks + 1 - world.episode_tick) * work_of_tick(world.road) <= MAX_WORK
 
 
 def _compiled_story(state: SimState) -> EpisodeRollout:
@@ -202,7 +202,7 @@ def rollout(
             return
         state = tick.state
         if searching:
-            work += searching * _work(state.world.road)
+            work += searching * work_of_tick(state.world.road)
             if work > MAX_WORK:
                 return
         started = started or state.world.outcome is Outcome.RUNNING
@@ -214,7 +214,7 @@ def decided(tick: StepResult, ego: str | None) -> Decision | None:
     return None if found is None else found.decision
 
 
-def _work(road: Road) -> int:
+def work_of_tick(road: Road) -> int:
     """How much a planner that searches looks through in a tick."""
     return road.columns * road.rows * road.rows
 

@@ -74,11 +74,11 @@ def find_ends(state: SimState, ego: str = FIRST, *, most: int | None = None, see
 
 
 @dataclass(slots=True)
-class _Node:
+class Node:
     """A moment of a future; `after` is where it may go, with the chance of each, once that is known."""
 
     state: SimState
-    after: list[tuple[float, _Node]] | None = None
+    after: list[tuple[float, Node]] | None = None
 
 
 @dataclass(slots=True)
@@ -93,8 +93,8 @@ class Futures:
     """whether what is drawn in the first tick is known, as it is to an ego that sees it"""
     work: int = 0
     branched: int = 0
-    _nodes: dict[tuple[int, ...], list[_Node]] = field(default_factory=dict)
-    _root: _Node = field(init=False)
+    _nodes: dict[tuple[int, ...], list[Node]] = field(default_factory=dict)
+    _root: Node = field(init=False)
     _traits: Traits = field(init=False)
     _known: bool = field(init=False)
     """whether what is decided hangs only on the rows from the ego on"""
@@ -111,7 +111,7 @@ class Futures:
     def __post_init__(self) -> None:
         prepare(self.start)
         config = self.start.config
-        self._root = _Node(self.start.with_ego(self.ego, mode=Mode.AUTO))
+        self._root = Node(self.start.with_ego(self.ego, mode=Mode.AUTO))
         self._number = self.start.number(self.ego)
         self._several = len(self.start.world.avs) > 1
         # Sensors may show anything, but for those that show the truth.
@@ -128,11 +128,11 @@ class Futures:
         `within`: ticks after which a future is followed no further, and counts as running.
         """
         ends: Ends = {}
-        layer: dict[int, tuple[_Node, float]] = {id(self._root): (self._root, 1.0)}
+        layer: dict[int, tuple[Node, float]] = {id(self._root): (self._root, 1.0)}
         if (shut := self._end(self._root)) is not None:
             return {shut: 1.0}
         while layer:
-            after: dict[int, tuple[_Node, float]] = {}
+            after: dict[int, tuple[Node, float]] = {}
             for node, mass in layer.values():
                 if self.branched and self.work >= WALK_SHARE * self._limit:
                     return None
@@ -168,7 +168,7 @@ class Futures:
     def _limit(self) -> int:
         return self._traits.decisions_per_answer if self.most is None else self.most
 
-    def _end(self, node: _Node, within: int | None = None) -> End | None:
+    def _end(self, node: Node, within: int | None = None) -> End | None:
         world = node.state.world
         ticks = world.tick - self.start.world.tick
         if within is not None and ticks >= within and world.outcome is Outcome.RUNNING:
@@ -188,7 +188,7 @@ class Futures:
             self._leading_on = _hopeful(self.start)
         return None if self._leading_on[ticks] >> world.av & 1 else (None, ticks)
 
-    def _after(self, node: _Node) -> list[tuple[float, _Node]]:
+    def _after(self, node: Node) -> list[tuple[float, Node]]:
         if node.after is None:
             known = self.seen and node is self._root
             ways = [(1.0, self.start.config)] if known else list(self._ways(node.state))
@@ -229,7 +229,7 @@ class Futures:
             ways[key] = before + chance, first
         yield from (way for way in ways.values() if way[0] > 0.0)
 
-    def _step(self, state: SimState, config: Config) -> _Node:
+    def _step(self, state: SimState, config: Config) -> Node:
         self.work += 1
         tick, belief = self._taken(state, config)
         for each in tick.steps.values():
@@ -246,7 +246,7 @@ class Futures:
         for node in alike:
             if [each.belief for each in node.state.egos.values()] == beliefs:
                 return node
-        alike.append(_Node(after))
+        alike.append(Node(after))
         return alike[-1]
 
     def _taken(self, state: SimState, config: Config) -> tuple[StepResult, Belief]:
@@ -287,7 +287,7 @@ def _hopeful(state: SimState) -> list[Board]:
     return cells_that_may_arrive(Forecast.of_truth(state.world, state.config, max(1, limit)), limit)
 
 
-def _pick(ways: list[tuple[float, _Node]], draw: float) -> _Node:
+def _pick(ways: list[tuple[float, Node]], draw: float) -> Node:
     """The way on which a draw from [0, 1) falls."""
     for chance, node in ways:
         if draw < chance:

@@ -97,6 +97,8 @@ class MoverWay:
     """whether the episode ends within these ticks"""
     by_chance: bool
     """whether some tick of them hangs on who gives way or brakes, which is drawn then"""
+    cell: Cell
+    """where it is after them"""
 
 
 def mover_move(state: SimState, made: tuple[Move, ...], id: str) -> MoverMove:
@@ -156,27 +158,31 @@ def latest_move(timeline: Timeline, id: str, move: Move | None, tick: int | None
     raise QuestionError("never_did", id=id, move=move, ticks=last - oldest + 1)
 
 
-def mover_way(timeline: Timeline, id: str) -> MoverWay:
-    """Where a mover goes from now on. Raises `QuestionError`: `not_there`, `never_moves`, `result_stood`."""
+def mover_way(timeline: Timeline, id: str, ticks: int = LOOK_AHEAD) -> MoverWay:
+    """Where a mover goes in so many ticks from now on.
+
+    Raises `QuestionError`: `not_there`, `never_moves`, `result_stood`.
+    """
     state = timeline.state
     if state.world.outcome is not Outcome.RUNNING:
         raise QuestionError("result_stood", tick=state.world.tick, outcome=state.world.outcome)
-    _mover(state.world, id)
+    cell = _mover(state.world, id).cell
     steps: list[Move] = []
     turn: MoverMove | None = None
     by_chance, here = False, state
-    for _ in range(LOOK_AHEAD):
+    for _ in range(ticks):
         told = step(here)
         if any(each.decision.timed_out for each in told.steps.values()):
             break
         found = mover_move(here, _made(here, told.state.world), id)
         by_chance = by_chance or _hangs_on_chance(here, found)
         steps.append(found.move)
+        cell = found.now.cell
         turn = turn or (found if found.turned else None)
         here = told.state
         if here.world.outcome is not Outcome.RUNNING:
-            return MoverWay(state, id, tuple(steps), turn, True, by_chance)
-    return MoverWay(state, id, tuple(steps), turn, False, by_chance)
+            return MoverWay(state, id, tuple(steps), turn, True, by_chance, cell)
+    return MoverWay(state, id, tuple(steps), turn, False, by_chance, cell)
 
 
 def _hangs_on_chance(state: SimState, found: MoverMove) -> bool:

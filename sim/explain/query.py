@@ -32,14 +32,16 @@ def why(
 ) -> Explanation:
     """Why the latest decision, the one at a tick, or the latest with a move.
 
-    It is that of an ego, the first by default. `effort`: how hard causes are looked for. Raises
-    `QuestionError`.
+    It is that of an ego, the first by default. Of stops the latest of this drive is meant: one on another
+    road is no answer to why it has stopped. `effort`: how hard causes are looked for. Raises `QuestionError`.
     """
     check_ego(timeline.state, ego)
     if tick is None and move is not None:
-        state, decision = latest_decision(timeline, SAID_OF.get(move, (move,)), ego)
+        began = timeline.state.world.episode_start if move is Move.STAY else 0
+        state, decision = latest_decision(timeline, SAID_OF.get(move, (move,)), ego, began)
         if decision is None:
-            raise QuestionError("never_made", move=move, ticks=min(timeline.tick, LOOK_BACK_TICKS))
+            ticks = min(timeline.tick - began, LOOK_BACK_TICKS)
+            raise QuestionError("never_made", move=move, ticks=ticks)
         return explain_why(state, decision, timeline.announced(state, ego), effort)
     state, decision = decision_meant(timeline, tick, ego)
     if move is not None and decision.move not in SAID_OF.get(move, (move,)):
@@ -119,12 +121,15 @@ def latest_detour(timeline: Timeline, ego: str | None = None) -> Decision:
 
 
 def latest_decision(
-    timeline: Timeline, moves: tuple[Move, ...], ego: str | None = None
+    timeline: Timeline, moves: tuple[Move, ...], ego: str | None = None, began: int = 0
 ) -> tuple[SimState, Decision | None]:
-    """The latest decision that was one of these moves, looked for in spans that grow backwards."""
+    """The latest decision that was one of these moves, looked for in spans that grow backwards.
+
+    `began`: a tick before which none is looked for.
+    """
     prepare(timeline.state)
     stop, span = timeline.tick, 1
-    oldest = max(0, timeline.tick - LOOK_BACK_TICKS)
+    oldest = max(began, timeline.tick - LOOK_BACK_TICKS)
     while stop > oldest:
         first = max(oldest, stop - span)
         runs = [timeline.at(first)] if span == 1 else list(timeline.between(first, stop))

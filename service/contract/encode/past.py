@@ -77,6 +77,7 @@ def way_of_mover_json(found: MoverWay) -> Json:
     return {
         "mover": {"id": found.id},
         "steps": found.steps,
+        "cell": list(found.cell),
         "turn": turn,
         "causes": [] if turn is None else turn["causes"],
         "shown": shown_json([thing] if (thing := found.state.world.find(found.id)) is not None else []),

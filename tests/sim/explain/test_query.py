@@ -32,14 +32,22 @@ def test_without_more_the_latest_decision_is_meant(timeline: Timeline, decisions
     assert why(timeline).decision.tick == max(decisions)
 
 
-@pytest.mark.parametrize(
-    ("asked", "counts"), [(Move.LEFT, {Move.LEFT, Move.FORWARD_LEFT}), (Move.STAY, {Move.STAY})]
-)
-def test_a_move_means_the_latest_such_decision(
-    timeline: Timeline, decisions: dict[int, Move], asked: Move, counts: set[Move]
-) -> None:
-    latest = max(tick for tick, move in decisions.items() if move in counts)
-    assert why(timeline, move=asked).decision.tick == latest
+def test_a_move_means_the_latest_such_decision(timeline: Timeline, decisions: dict[int, Move]) -> None:
+    latest = max(tick for tick, move in decisions.items() if move in (Move.LEFT, Move.FORWARD_LEFT))
+    assert why(timeline, move=Move.LEFT).decision.tick == latest
+
+
+def test_a_stop_means_the_latest_of_this_drive(timeline: Timeline, decisions: dict[int, Move]) -> None:
+    latest = max(tick for tick, move in decisions.items() if move is Move.STAY)
+    just_stopped, next_drive = timeline.copy(), timeline.copy()
+    just_stopped.rewind(latest + 1)
+    assert why(just_stopped, move=Move.STAY).decision.tick == latest
+    began = timeline.at(latest).world.episode_start
+    begins = min(tick for tick in decisions if timeline.at(tick).world.episode_start > began)
+    next_drive.rewind(begins + 1)
+    with pytest.raises(QuestionError) as caught:
+        why(next_drive, move=Move.STAY)
+    assert code(caught) == "never_made"
 
 
 def test_every_past_decision_can_be_asked_about(timeline: Timeline, decisions: dict[int, Move]) -> None:
