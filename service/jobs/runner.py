@@ -153,9 +153,9 @@ class JobRunner:
             raise NotSaved from error
 
     async def latest_of(self, session: str) -> JobRecord | None:
-        """The latest job of a session; None where it is not among the newest. Raises `NotSaved`."""
-        found = await self.newest(NEWEST)
-        return next((job for job in found if job.spec.get("session") == session), None)
+        """The latest job of a session, with its result; None where it is not among the newest. Raises `NotSaved`."""
+        found = next((job for job in await self.newest(NEWEST) if job.spec.get("session") == session), None)
+        return None if found is None else await self.get(found.id)
 
     async def parts(self, job_id: str) -> Mapping[str, bytes]:
         """What the finished pieces of a job came to. Raises `NotSaved`."""
