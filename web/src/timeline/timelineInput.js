@@ -27,7 +27,8 @@ export function watchWheel(page, place, wanted = () => true) {
       const sideways = Math.abs(deltaX) > Math.abs(deltaY);
       if (ctrlKey || !wanted() || (!sideways && scrollHeight > clientHeight)) return;
       event.preventDefault();
-      turned += (sideways ? deltaX : -deltaY) * (deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : 33);
+      const turn = (sideways ? deltaX : -deltaY) * (deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : 33);
+      turned = turn * turned < 0 ? turn : turned + turn;
       const ticks = Math.trunc(turned / WHEEL_PX);
       turned -= ticks * WHEEL_PX;
       if (ticks !== 0) void page.timeTravel.step(ticks);
