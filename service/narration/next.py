@@ -31,7 +31,7 @@ class Next:
         return plain(self._sayings, asked.ask, run, self._text(way)) | way_json(way)
 
     def advice(self, run: SimState) -> str:
-        """What the planner would do first in the place of a person who drives; empty where nothing is told."""
+        """What the planner would do first in the place of a person who drives; else empty."""
         way = route_ahead(run)
         if not way.offered or not way.decisions:
             return ""

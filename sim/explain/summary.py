@@ -1,4 +1,4 @@
-"""What an episode has come to, at its end: detours and waits, for whose sake, and what the best would have been.
+"""What an episode has come to, at its end: detours, waits, for whose sake, and what the best would have been.
 
 Read off the course that the run carries (`sim.episode_record`), so nothing is driven again. What cannot be
 known for certain is left out: the best, and until when a way was open, are for roads that nobody changed on

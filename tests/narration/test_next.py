@@ -47,7 +47,7 @@ def test_help_advises_who_drives() -> None:
     by_hand = HOLE.with_ego(mode=Mode.MANUAL)
     assert told(by_hand, "help").startswith("You are driving: in your place I would go forward. Say a move")
     beside = run_on(road("........", "........", "...o....", "...A....")).with_ego(mode=Mode.MANUAL)
-    assert "I would move left round the pothole 5 m ahead. Say" in told(beside, "help")
+    assert "I would move left round the pothole right ahead. Say" in told(beside, "help")
     queued = by_hand.with_ego(queue=(Move.RIGHT,))
     assert told(queued, "help") == told(HOLE, "help")
 
