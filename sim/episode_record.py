@@ -49,14 +49,15 @@ class EpisodeRecord:
     moves: str = ""
     """every move, as the digit of its place in `Move`"""
     sakes: tuple[tuple[Sake, int], ...] = ()
-    """number of detours per reason, in the order of their first occurrence"""
+    """number of moves that were not straight on per reason, in the order of their first occurrence"""
     last: World | None = None
     """the world before the move that ended the episode"""
 
     @property
-    def detours(self) -> int:
-        """The number of moves that were not straight on."""
-        return sum(count for _, count in self.sakes)
+    def waits(self) -> int:
+        """The number of moves with a reason in which the ego stood."""
+        aside = sum(move not in (Move.FORWARD, Move.STAY) for move in self.move_list())
+        return sum(count for _, count in self.sakes) - aside
 
     def after(
         self,

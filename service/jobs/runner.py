@@ -154,8 +154,13 @@ class JobRunner:
 
     async def latest_of(self, session: str) -> JobRecord | None:
         """The latest job of a session; None where it is not among the newest. Raises `NotSaved`."""
-        found = await self.newest(NEWEST)
-        return next((job for job in found if job.spec.get("session") == session), None)
+        found = next((job for job in await self.newest(NEWEST) if job.spec.get("session") == session), None)
+        if found is None:
+            return None
+        try:
+            return await self.get(found.id)
+        except UnknownJob:
+            return None  # deleted meanwhile
 
     async def parts(self, job_id: str) -> Mapping[str, bytes]:
         """What the finished pieces of a job came to. Raises `NotSaved`."""

@@ -34,7 +34,7 @@ class Ends:
         return f"{self._sayings.listed([part for part in parts if part])}."
 
     def _detours(self, found: Summary) -> str:
-        if not found.detours:
+        if not found.sakes:
             return self._say("straight") if found.certain else ""
         if len(found.sakes) == 1:
             ((sake, count),) = found.sakes
@@ -47,8 +47,13 @@ class Ends:
                     for sake, count in found.sakes
                 ]
             )
-        form = "one" if found.detours == 1 else "many"
-        return self._say("detours", form, count=self._count(found.detours), sakes=told)
+        counts = {"detours": found.detours, "waits": found.waits}
+        named = [
+            self._say(key, "one" if count == 1 else "many", count=self._count(count))
+            for key, count in counts.items()
+            if count
+        ]
+        return self._say("not_straight", moves=self._sayings.joined(named), sakes=told)
 
     def _best(self, found: Summary) -> str:
         if found.above is None:

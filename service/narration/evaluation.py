@@ -64,6 +64,8 @@ class EvaluationWords:
     def ended(self, spec: Evaluation, summary: Json, job_id: str) -> str:
         """A line for the log of the session that asked for it."""
         told = " ".join(self._arrived(planner, summary) for planner in spec.planners)
+        if len(spec.planners) == 1:
+            told = " ".join([told, *self._failed(spec.planners[0], summary)])
         if spec.axes is not None:
             told = " ".join(self._map.paragraphs(summary["map"]))
         return self._say("done", told=told, link=REPORT.format(id=job_id))
@@ -240,19 +242,7 @@ class EvaluationWords:
             told.append(
                 self._say("possible", of=self._whole(possible["of"]), count=self._whole(possible["count"]))
             )
-        crashed, stuck = (figures[name]["count"] for name in ("crashed", "stuck"))
-        if crashed or stuck:
-            form = "both" if crashed and stuck else "crashed" if crashed else "stuck"
-            pattern = self._pattern(planner, summary)
-            told.append(
-                self._say(
-                    "failed",
-                    form,
-                    crashed=self._whole(crashed),
-                    stuck=self._whole(stuck),
-                    pattern=pattern,
-                )
-            )
+        told += self._failed(planner, summary)
         told += self._time(figures)
         near = figures["close"]["near_misses"]
         if near["count"]:
@@ -265,6 +255,15 @@ class EvaluationWords:
                 )
             )
         return " ".join(told)
+
+    def _failed(self, planner: str, summary: Json) -> list[str]:
+        figures = summary["planners"][planner]
+        crashed, stuck = (figures[name]["count"] for name in ("crashed", "stuck"))
+        if not crashed and not stuck:
+            return []
+        form = "both" if crashed and stuck else "crashed" if crashed else "stuck"
+        parts = {"crashed": self._whole(crashed), "stuck": self._whole(stuck)}
+        return [self._say("failed", form, pattern=self._pattern(planner, summary), **parts)]
 
     def _time(self, figures: Json) -> list[str]:
         seconds, lost = figures["seconds"], figures["close"]["lost_s"]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from itertools import groupby
+from dataclasses import replace
+from itertools import groupby, takewhile
 
 from service.contract.encode.forecast import way_json
 from service.narration.answer_length import MOST_WORDS
@@ -32,6 +33,15 @@ class Next:
             return self._of_kind.answer(asked)
         way = route_ahead(run)
         return plain(self._sayings, asked.ask, run, self._text(way)) | way_json(way)
+
+    def advice(self, run: SimState) -> str:
+        """What the planner would do first in the place of a person who drives; else empty."""
+        way = route_ahead(run)
+        if not way.offered or not way.decisions:
+            return ""
+        first = takewhile(lambda decision: decision.move is way.decisions[0].move, way.decisions)
+        begun = replace(way, decisions=tuple(first), outcome=Outcome.RUNNING)
+        return self._way(begun, len(way.detours))
 
     def _text(self, way: RouteAhead) -> str:
         run = way.state

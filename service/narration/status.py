@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from service.narration.answerer import Json, plain
+from service.narration.next import Next
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.state import SimState
@@ -37,14 +38,19 @@ class Status:
 
 
 class Help:
-    """Answers to "what can I say?"."""
+    """Answers to "what can I say?"; to a person who drives, with what to do next."""
 
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
         self._sayings = sayings
+        self._next = Next(sayings)
 
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
+        way = self._next.advice(asked.timeline.state)
+        if way:
+            text = self._sayings.say("answers", "help_driving", way=way)
+            return plain(self._sayings, asked.ask, asked.timeline.state, text)
         examples = self._sayings.joined(
             [self._sayings.quoted(example) for example in self._sayings.examples()]
         )

@@ -1,4 +1,4 @@
-"""What an episode has come to, at its end: detours and for whose sake, and what the best would have been.
+"""What an episode has come to, at its end: detours, waits, for whose sake, and what the best would have been.
 
 Read off the course that the run carries (`sim.episode_record`), so nothing is driven again. What cannot be
 known for certain is left out: the best, and until when a way was open, are for roads that nobody changed on
@@ -44,7 +44,9 @@ class Summary:
     outcome: Outcome
     ticks: int
     sakes: tuple[tuple[Sake, int], ...]
-    """detours by whose sake, in the order they first came"""
+    """detours and waits by whose sake, in the order they first came"""
+    waits: int
+    """those of them in which the vehicle stood"""
     best: int | None
     """least ticks from the beginning; None where there is no way, or where it is not certain, or not found"""
     cause: Cause | None
@@ -64,8 +66,8 @@ class Summary:
 
     @property
     def detours(self) -> int:
-        """Moves that were not straight on."""
-        return sum(count for _, count in self.sakes)
+        """Moves to another lane."""
+        return sum(count for _, count in self.sakes) - self.waits
 
     @property
     def above(self) -> int | None:
@@ -113,6 +115,7 @@ def summary(state: SimState, *, ego: str | None = None) -> Summary:
         outcome=world.outcome,
         ticks=ticks,
         sakes=course.sakes,
+        waits=course.waits,
         best=best,
         cause=world.cause,
         free=free,

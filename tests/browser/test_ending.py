@@ -162,3 +162,24 @@ def test_a_drive_that_went_well_is_driven_anew_by_hand_and_its_card_can_be_made_
     visitor.shows(0)
     state = visitor.script.state()
     assert (state["tick"], state["mode"], state["status"], state["paused"]) == (0, "manual", "running", True)
+
+
+@pytest.mark.parametrize("way", ["button", "said", "planner"])
+def test_whoever_wants_to_drive_at_an_end_drives_again(
+    visit: Visit, service: ServiceProcess, way: str
+) -> None:
+    visitor = visit(f"/#/s/{service.session(**SHORT)}")
+    while visitor.script.state()["status"] == "running":
+        visitor.script.act({"do": "step", "ticks": 1})
+    expect(visitor.page.locator(".verdict")).to_be_visible()
+    if way == "button":
+        visitor.page.locator("[data-act=manual]").click()
+    elif way == "said":
+        visitor.say("let me drive")
+    else:
+        visitor.page.locator("#planner-menu .menu-button").click()
+        visitor.page.locator("#planner-menu .menu-item", has_text="arrow keys").click()
+    visitor.shows(0)
+    expect(visitor.page.locator(".drive-pad")).to_be_visible()
+    visitor.page.locator("[data-move=forward]").click()
+    visitor.shows(1)

@@ -84,7 +84,8 @@ def test_asking_why(visit: Visit) -> None:
     expect(answer.locator(".proof")).to_contain_text("Proved by re-simulation")
     expect(answer.locator(".proof")).to_contain_text("necessary")
     expect(answer.locator(".proof")).to_contain_text("sufficient")
-    expect(answer.locator(".cause")).to_contain_text(barrier)
+    expect(answer.locator(".cause")).to_contain_text("Barrier")
+    expect(answer.locator(".cause")).to_have_attribute("title", re.compile(re.escape(barrier)))
     assert answer.locator(".alternatives li").count() == 5
 
 

@@ -27,7 +27,7 @@ def test_a_thing_is_dragged_to_another_cell_and_one_undo_takes_it_back(road: Roa
     start, end = road.ahead(3), road.ahead(2, 2)
     road.put("pothole", start)
     road.drag(road.at(start), road.at(end))
-    road.done("Move pothole")
+    road.done("Move the pothole")
     assert len(road.in_cell(end)) == 1
     assert road.in_cell(start) == []
     lines = road.page.locator(".log-line").count()
@@ -140,7 +140,7 @@ def test_letters_put_delete_removes_m_moves(road: Road) -> None:
     keys.press("ArrowUp")
     keys.press("ArrowLeft")
     keys.press("m")
-    road.done("Move pothole")
+    road.done("Move the pothole")
     moved = [cell[0] - 1, cell[1] - 1]
     assert road.in_cell(moved)[0].startswith("pothole")
     assert road.script.state()["mode"] == "auto"
@@ -221,7 +221,7 @@ def test_a_tap_tells_and_a_finger_on_free_road_still_scrolls(visit: Visit, servi
     assert box["x"] >= 0
     assert box["x"] + box["width"] <= 390
     road.bubble.get_by_role("button", name="Remove").tap()
-    road.done("Remove pothole")
+    road.done("Remove the pothole")
     assert road.script.count("pothole") == 0
     x, y = road.at(road.ahead(3, 1))
     client = road.page.context.new_cdp_session(road.page)
@@ -248,5 +248,5 @@ def test_a_finger_drags_a_thing(visit: Visit, service: ServiceProcess) -> None:
     expect(road.page.locator(".ghost")).to_be_visible()
     assert road.page.evaluate("scrollY") == 0
     finger("touchEnd")
-    road.done("Move barrier")
+    road.done("Move the barrier")
     assert len(road.in_cell(end)) == 1

@@ -139,3 +139,17 @@ def test_the_road_changes_with_the_colours_of_the_system(visit: Visit) -> None:
     visitor.settled(unlike=light)
     visitor.page.emulate_media(color_scheme="light")
     visitor.settled(like=light)
+
+
+def test_on_a_phone_what_can_be_tried_is_seen_at_once_and_covers_nothing(visit: Visit) -> None:
+    visitor = visit(viewport=NARROW)
+    example = visitor.page.locator(".example").first
+    expect(example).to_be_in_viewport(ratio=0.9)
+    for button in visitor.page.locator("#controls button:visible").all():
+        box, strip = button.bounding_box(), visitor.page.locator(".examples").bounding_box()
+        assert box is not None
+        assert strip is not None
+        assert box["y"] + box["height"] <= strip["y"]
+    example.click()
+    visitor.last_exchange()
+    expect(visitor.page.locator(".examples")).to_have_count(0)

@@ -142,3 +142,21 @@ def test_everyone_watching_sees_a_change(visit: Visit) -> None:
     first.say("add seven potholes")
     expect(second.page.locator(".log-line[data-tone=change]")).to_contain_text("add seven potholes")
     assert second.page.locator(".exchange").count() == 0
+
+
+def test_talk_shows_how_far_an_evaluation_is_and_then_what_came_of_it(visit: Visit) -> None:
+    visitor = visit()
+    exchange = visitor.say("run this road 40 times")
+    told = exchange.locator(".reply").nth(1)
+    expect(told).to_contain_text(re.compile(r"of 40 runs.*95 % interval"))
+    expect(exchange.locator("progress")).to_have_count(0)
+    report = exchange.get_by_role("link").get_attribute("href") or ""
+    found = visitor.page.request.get(visitor.url + report.removesuffix("/report")).json()
+    assert found["text"][0].startswith(told.inner_text())
+    line = visitor.page.locator(".log-line", has_text="The evaluation is done")
+    expect(line).not_to_contain_text("/api/")
+    assert line.get_by_role("link").get_attribute("href") == report
+    assert visitor.page.request.get(visitor.url + report).ok
+    visitor.page.reload()
+    visitor.wait_live()
+    expect(visitor.page.locator(".exchange").first).to_contain_text("95 % interval")

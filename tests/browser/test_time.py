@@ -287,3 +287,25 @@ def test_on_a_phone_the_past_can_be_reached_and_left(visit: Visit) -> None:
     assert edges["x"] + edges["width"] <= 360
     visitor.page.get_by_role("button", name="Back to live").tap()
     expect(bar(visitor)).to_be_hidden()
+
+
+def test_the_wheel_goes_along_the_run_and_a_page_that_can_scroll_is_scrolled(run: Visitor) -> None:
+    def turn(target: str, across: int, down: int) -> None:
+        run.page.locator(target).hover(position={"x": 100, "y": 10}, force=True)
+        run.page.mouse.wheel(across, down)
+
+    turn(".line", 0, 300)
+    run.shows(TICKS - 3)
+    turn(".line", 0, -100)
+    run.shows(TICKS - 2)
+    turn("#road", 0, 300)
+    run.say("enlarge the road")
+    run.shows(TICKS - 2)
+    turn("#road", 0, 100)
+    run.shows(TICKS - 3)
+    run.say("back to live")
+    run.page.keyboard.press("Escape")
+    run.page.set_viewport_size({"width": 700, "height": 700})
+    turn(".line", 0, 200)
+    run.until("() => scrollY > 0")
+    assert run.tick() == TICKS

@@ -318,6 +318,7 @@ async def test_a_session_evaluates_its_own_roads_and_says_so(running: Service) -
     log = (await running.client.get(f"{path}/events")).json()["items"]
     assert log[-1]["text"].startswith("The evaluation is done: A* arrived in")
     assert one["links"]["report"] in log[-1]["text"]
+    assert (await running.say(path, "how is the evaluation going?")).json()["reply"] == log[-1]["text"]
     after = (await running.client.get(path)).json()
     assert after["sequence"] == before["sequence"]
 

@@ -34,12 +34,22 @@ def test_the_way_from_here() -> None:
     assert told(HOLE, "next") == f"Next I {way}"
     by_hand = HOLE.with_ego(mode=Mode.MANUAL)
     assert told(by_hand, "next") == (
-        f"You are driving and have asked for nothing, so I stay. If you let me, I would {way}"
+        f"You are driving; without a word from you I stay. In your place I would {way}"
     )
     queued = by_hand.with_ego(queue=(Move.RIGHT,))
     assert told(queued, "next") == "Next I move right, as you asked, then wait for your word."
     short = run_on(road("........", "........", "........", "...A...."))
     assert told(short, "next") == "Next I go forward 15 m, and then I am there."
+
+
+def test_help_advises_who_drives() -> None:
+    assert told(HOLE, "help").startswith("You can say, for instance: ")
+    by_hand = HOLE.with_ego(mode=Mode.MANUAL)
+    assert told(by_hand, "help").startswith("You are driving: in your place I would go forward. Say a move")
+    beside = run_on(road("........", "........", "...o....", "...A....")).with_ego(mode=Mode.MANUAL)
+    assert "I would move left round the pothole right ahead. Say" in told(beside, "help")
+    queued = by_hand.with_ego(queue=(Move.RIGHT,))
+    assert told(queued, "help") == told(HOLE, "help")
 
 
 def test_the_way_from_anywhere_reads_like_a_sentence() -> None:

@@ -96,7 +96,7 @@ test("a thing is offered away, and to be imagined away, by its id", () => {
     kind: "change",
     tick: null,
     actions: removing({ kind: "pothole", id: "pothole-1" }),
-    label: "Without pothole-1",
+    label: "Without the pothole",
   });
   assert.deepEqual(remove.act.actions, [{ do: "remove", kind: "pothole", count: 1, where: { id: "pothole-1" } }]);
 });
@@ -247,6 +247,7 @@ test("titles and names of what is imagined", () => {
   const remove = (kind, where) => ({ do: "remove", kind, count: where ? 1 : "all", where });
   assert.equal(labelOf([remove("pothole")]), "Without potholes");
   assert.equal(labelOf([remove("everything")]), "With an empty road");
-  assert.equal(labelOf([remove("pothole", { id: "pothole-1" }), remove("vehicle", { id: "vehicle-2" })]), "Without pothole-1 and vehicle-2");
+  assert.equal(labelOf([remove("pothole", { id: "pothole-1" }), remove("vehicle", { id: "vehicle-2" })]), "Without the pothole and the car");
+  assert.equal(labelOf([remove("pothole", { id: "pothole-1" }), remove("pothole", { id: "pothole-2" })]), "Without pothole-1 and pothole-2");
   assert.equal(labelOf([{ do: "add", kind: "pothole", count: 1 }]), "With that change");
 });

@@ -102,8 +102,8 @@ test("the present going back takes events along, but not what was forked from th
 });
 
 test("events in words; a near miss says what is meant", () => {
-  assert.equal(eventText({ tick: 1, kind: "crash", ids: ["vehicle-3"] }), "Crash with vehicle 3");
-  assert.match(eventText({ tick: 1, kind: "near_miss", ids: ["pedestrian-2"] }), /pedestrian 2 moved into the cell just left/);
+  assert.equal(eventText({ tick: 1, kind: "crash", ids: ["vehicle-3"] }), "Crash with a car");
+  assert.match(eventText({ tick: 1, kind: "near_miss", ids: ["pedestrian-2"] }), /a pedestrian moved into the cell just left/);
   assert.equal(eventText({ tick: 1, kind: "wait", ticks: 4 }), "Waits for 4 ticks");
   assert.equal(eventText({ tick: 1, kind: "command", text: "add a cone" }), "“add a cone”");
 });

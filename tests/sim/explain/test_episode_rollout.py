@@ -100,7 +100,8 @@ def test_an_end_is_summed_up_as_driving_it_again_would(potholes: int | None) -> 
         found, (*before, end) = summary(runs[-1]), runs
         assert found.outcome is end.world.outcome
         assert found.ticks == len(before)
-        assert found.detours == end.metrics.steps - end.metrics.forward
+        assert found.waits == end.metrics.stay
+        assert found.detours == end.metrics.lateral + end.metrics.diagonal
         assert found.best == least_ticks(runs[0])
         if found.outcome is Outcome.SUCCESS:
             assert found.above is not None

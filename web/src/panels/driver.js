@@ -4,6 +4,7 @@
 import { hasText, t } from "../core/texts.js";
 import { PLANNERS, plannerName } from "../core/words.js";
 import { createMenu } from "../ui/menu.js";
+import { driveAgain } from "./ending.js";
 
 /** @import { Command } from "../core/commands.js" */
 /** @import { Page } from "../core/page.js" */
@@ -89,8 +90,10 @@ export function driverCommands() {
   const drivers = DRIVERS.map((name) => ({
     name: `driver-${name}`,
     group: t("groups.driver"),
-    now: ({ past, world }) =>
-      world === null || past || driverOf(world) === name ? null : { label: chosenText(name), turns: [handOver(name, world)] },
+    now: (state) => {
+      const { past, world } = state;
+      return world === null || past || driverOf(world) === name ? null : { label: chosenText(name), turns: [handedOver(name, state)] };
+    },
   }));
   return [...drivers, ...raceCommands()];
 }
@@ -108,8 +111,14 @@ export function handOver(name, world) {
   return world.mode === PERSON ? [...actions, { do: "mode", mode: "auto" }] : actions;
 }
 
+/** The same, also where an episode has ended: there is nothing to drive but what was driven. @param {string} name @param {State} state @returns {Action[]} */
+function handedOver(name, state) {
+  const { world } = state;
+  if (world === null) return [];
+  return name === PERSON && world.status !== "running" ? driveAgain(state) : handOver(name, world);
+}
+
 /** @param {string} name @param {Page} page */
 function chooseDriver(name, page) {
-  const { world } = page.state();
-  if (world) page.act(handOver(name, world), chosenText(name), true);
+  page.act(handedOver(name, page.state()), chosenText(name), true);
 }

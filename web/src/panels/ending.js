@@ -81,17 +81,16 @@ export function endingTemplate(state, page) {
   if (!world) return nothing;
   const end = endOf(state)?.to ?? world.tick;
   const ticks = world.metrics.last_episode_ticks ?? 0;
-  const from = Math.max(0, end - Math.min(TICKS_BEFORE, ticks));
   const arrived = world.status === "success";
   const told = arrived ? "summary" : "why";
   const otherwise = world.status === "stuck" ? "leads_on" : "saved";
   return html`${ticks > 0 ? html`<p class="ending-figures">${t("ending.after", { time: clock(ticks * world.stepS), ticks })}</p>` : nothing}
     <div class="ending-buttons">
       ${button("next", t("ending.next"), () => void goOn(page, end), "strong")}
+      ${button("drive", t("ending.drive"), () => page.act(driveAgain(page.state()), t("ending.drive")))}
       ${button(told, t(`ending.${told}`), () => page.say(t(`ending.say.${world.status}`)))}
-      ${button("watch", t("ending.watch"), () => void watch(page, from))}
+      ${button("watch", t("ending.watch"), () => void watch(page, beforeEnd(state)))}
       ${arrived ? nothing : button(otherwise, t(`ending.${otherwise}`), () => page.say(t(`ending.say.${otherwise}`)))}
-      ${button("drive", t("ending.drive"), () => page.act(driveActions(arrived ? "episode" : from, page), t("ending.drive")))}
     </div>
     <label class="ending-choice"><input type="checkbox" .checked=${live(preference(GOES_ON) === "yes")} @change=${choose}> ${t("ending.go_on")}</label>`;
 }
@@ -112,20 +111,26 @@ async function watch(page, from) {
   page.timeTravel.play();
 }
 
+/** The tick from which the end is seen, or driven, again. @param {Pick<State, "log" | "world">} state */
+function beforeEnd(state) {
+  const { tick, metrics } = /** @type {NonNullable<State["world"]>} */ (state.world);
+  const end = endOf(state)?.to ?? tick;
+  return Math.max(0, end - Math.min(TICKS_BEFORE, metrics.last_episode_ticks ?? 0));
+}
+
 /**
- * Back to where it could still be driven otherwise, or to the start of a drive that went well, with the person at the
- * wheel and the clock standing: each move makes its own tick.
- * @param {number | "episode"} from
- * @param {Page} page
+ * Puts a person at the wheel, the clock standing: each move makes its own tick. After an end it goes back to where it
+ * could still be driven otherwise, or to the start of a drive that went well.
+ * @param {Pick<State, "log" | "world">} state  whose episode has ended
  * @returns {Action[]}
  */
-function driveActions(from, page) {
-  const { world } = page.state();
+export function driveAgain(state) {
+  const { world } = state;
   /** @type {Action[]} */
   const wheel = world?.mode === "manual" ? [] : [{ do: "mode", mode: "manual" }];
   /** @type {Action[]} */
   const still = world?.paused ? [] : [{ do: "pause" }];
-  return [{ do: "rewind", to: from }, ...wheel, ...still];
+  return [{ do: "rewind", to: world?.status === "success" ? "episode" : beforeEnd(state) }, ...wheel, ...still];
 }
 
 /** On to the next road: over what is left of the time for which a result stands. @param {Page} page @param {number} end */

@@ -77,11 +77,17 @@ const sizeOf = ({ clientWidth, clientHeight }) => `${clientWidth} ${clientHeight
 function row(line, { looked, later }) {
   return html`<li class="log-line" data-tone=${line.tone} data-type=${line.type} data-tick=${line.from} ?data-looked=${looked} ?data-later=${later || line.gone}>
     <span class="log-tick">${ticks(line)}</span>
-    <span class="log-text">${line.said ? html`<span class="log-said">${t("log.said", { text: line.said })} </span>` : nothing}${line.text}</span>
+    <span class="log-text">${line.said ? html`<span class="log-said">${t("log.said", { text: line.said })} </span>` : nothing}${linked(line.text)}</span>
   </li>`;
 }
 
 /** @param {Line} line */
 function ticks({ from, to }) {
   return from === to ? String(from) : `${from}–${to}`;
+}
+
+/** The address of a report as a link. @param {string} text */
+export function linked(text) {
+  const parts = text.split(/(\/api\/\S+\/report)/);
+  return parts.map((part, at) => (at % 2 === 0 ? part : html`<a href=${part} target="_blank" rel="noopener">${t("session.open")}</a>`));
 }

@@ -8,12 +8,12 @@
 
 import { html, nothing } from "../../vendor/lit-html.js";
 import { sceneOf } from "../core/state.js";
-import { capital, t } from "../core/texts.js";
+import { capital, nameText, t } from "../core/texts.js";
 import { lay } from "../ui/placement.js";
 import { createSlot, find } from "../ui/slot.js";
 import { hindrance, isLoose, moving, placing, removing, TOOLS } from "./edit.js";
 import { onRoad, same, thingIn } from "./hitTest.js";
-import { cellWords, nameOf, nounOf, placeWords } from "./placeTexts.js";
+import { calledOf, cellWords, nameOf, nounOf, placeWords } from "./placeTexts.js";
 import { portrait } from "./tray.js";
 import { egoOf } from "./world.js";
 
@@ -202,7 +202,7 @@ class Cursor {
     else if (key === "Home") this.go(ahead(world));
     else if (repeat) return tool !== undefined;
     else if (key === "Escape" && this.grabbed !== null) {
-      this.#say(t("cursor.stays", { id: capital(this.grabbed.id) }));
+      this.#say(t("cursor.stays", { id: capital(calledOf(world, this.grabbed)) }));
       this.letGo();
     } else if (key === "m" || key === "M" || (key === "Enter" && this.grabbed !== null)) this.#takeOrPut(world, at);
     else if (key === "Enter") {
@@ -226,7 +226,7 @@ class Cursor {
     const why = hindrance(world, thing.kind, at, thing.id);
     if (why !== null) return this.#say(why);
     this.letGo();
-    if (!same(thing.cell, at)) this.actions.runCommand(moving(thing, at), t("edit.move", { id: thing.id, place: placeWords(world, at) }));
+    if (!same(thing.cell, at)) this.actions.runCommand(moving(thing, at), t("edit.move", { id: calledOf(world, thing), place: placeWords(world, at) }));
   }
 
   /** @param {Thing | null} thing */
@@ -235,13 +235,13 @@ class Cursor {
     this.grabbed = thing;
     this.show();
     this.card.hide();
-    this.#say(t("cursor.holding", { id: thing.id }));
+    this.#say(t("cursor.holding", { id: nameText("the", thing.kind) }));
   }
 
   /** @param {World} world @param {Cell} at */
   #remove(world, at) {
     const thing = thingIn(world, at);
-    if (isLoose(thing)) this.actions.runCommand(removing(thing), t("edit.take_off", { id: thing.id }));
+    if (isLoose(thing)) this.actions.runCommand(removing(thing), t("edit.take_off", { id: calledOf(world, thing) }));
     else this.#say(t(thing ? "cursor.drives_itself_remove" : "cursor.nothing_to_remove"));
   }
 

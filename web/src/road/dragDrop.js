@@ -15,7 +15,7 @@ import { createSlot, find } from "../ui/slot.js";
 import { pointedAt } from "../why/pointing.js";
 import { hindrance, isLoose, moving, placing, removing } from "./edit.js";
 import { cellPx, onRoad, same, thingAt } from "./hitTest.js";
-import { nameOf, nounOf, placeWords } from "./placeTexts.js";
+import { calledOf, nameOf, nounOf, placeWords } from "./placeTexts.js";
 import { createTray, portrait } from "./tray.js";
 
 /** @import { Kind } from "../core/wire.js" */
@@ -172,7 +172,7 @@ class DragDrop {
     this.ghost.toggleAttribute("data-off", off);
     this.#light(off ? null : cell, why === null);
     if (!off) this.tell(why ?? capital(placeWords(world, cell)));
-    else this.tell(held.thing ? t("edit.let_go_off", { id: held.thing.id }) : t("edit.let_go_over", { name: nounOf(held) }));
+    else this.tell(held.thing ? t("edit.let_go_off", { id: calledOf(world, held.thing) }) : t("edit.let_go_over", { name: nounOf(held) }));
   }
 
   /** @param {Cell | null} cell @param {boolean} good */
@@ -196,13 +196,13 @@ class DragDrop {
     const cell = this.#over(x, y);
     this.#end();
     if (cell === null || !onRoad(world, cell)) {
-      if (thing) this.runCommand(removing(thing), t("edit.take_off", { id: thing.id }));
+      if (thing) this.runCommand(removing(thing), t("edit.take_off", { id: calledOf(world, thing) }));
       return;
     }
     if (thing && same(thing.cell, cell)) return;
     const why = hindrance(world, kind, cell, thing?.id);
     if (why !== null) return this.tell(why);
-    if (thing) this.runCommand(moving(thing, cell), t("edit.move", { id: thing.id, place: placeWords(world, cell) }));
+    if (thing) this.runCommand(moving(thing, cell), t("edit.move", { id: calledOf(world, thing), place: placeWords(world, cell) }));
     else this.#put(kind, world, cell);
   }
 

@@ -3,6 +3,7 @@
 
 import { lazyPanel, styled } from "../core/lazy.js";
 import { t } from "../core/texts.js";
+import { driveAgain } from "../panels/ending.js";
 
 /** @import { Page } from "../core/page.js" */
 /** @import { Panel } from "../panels/index.js" */
@@ -26,7 +27,10 @@ export function createDriving(host, place, page) {
         group: t("groups.drive"),
         key: "m",
         keyName: "M",
-        now: ({ world }) => {
+        now: (state) => {
+          const { world } = state;
+          // There is nothing to drive at an end.
+          if (world && world.status !== "running") return { label: t("ending.drive"), icon: "wheel", turns: [driveAgain(state)] };
           const mode = world?.mode === "manual" ? "auto" : "manual";
           return { label: t(`drive.${mode}`), icon: "wheel", pressed: mode === "auto", turns: [[{ do: "mode", mode }]] };
         },

@@ -18,6 +18,13 @@ export function nounOf({ kind }) {
   return nameText("nouns", kind);
 }
 
+/** A thing as the one that is meant: "the barrier", among others of its kind with its place. @param {World} world @param {Thing} thing */
+export function calledOf(world, { kind, cell }) {
+  const name = nameText("the", kind);
+  const others = [...world.things.values()].filter((each) => each.kind === kind).length > 1;
+  return others ? t("place.called", { name, place: placeWords(world, cell) }) : name;
+}
+
 /**
  * Where a cell is, as one says it in the car.
  * @param {World} world

@@ -30,6 +30,8 @@ import { describe, egoOf } from "./world.js";
 /** More pixels than this a cell cannot be told apart, and cost frames. */
 const LARGEST_RATIO = 2;
 const LONGEST_FRAME_S = 0.1;
+/** How strongly vehicles light the road by night, where colours do not say so. */
+const NIGHT_LAMPS = 0.6;
 
 /** @typedef {import("./paint/things.js").Scene & {state: State, world: World, seen: Pose[]}} Moment  what is drawn: `seen`, as far as it is in view */
 
@@ -110,7 +112,7 @@ class RoadView {
 
   /** @param {number} now @returns {boolean} whether there is more to come */
   draw(now) {
-    const { state, stage, sprites, palette, pen } = this;
+    const { state, stage, sprites, pen } = this;
     const world = state?.world;
     if (!world || this.host.clientWidth === 0) return false;
     const { view, tile } = this.view && this.tile ? { view: this.view, tile: this.tile } : this.#fit(world);
@@ -120,6 +122,7 @@ class RoadView {
     const elapsedS = still ? Infinity : Math.min(LONGEST_FRAME_S, (now - this.#drawnAt) / 1000);
     this.#drawnAt = now;
     const progress = still ? 1 : stage.progress(now);
+    const palette = world.light === "day" || this.palette.lamps > 0 ? this.palette : { ...this.palette, lamps: NIGHT_LAMPS };
     const moment = { pen, sprites, palette, progress, now: still ? 0 : now, state, world, seen: stage.poses(now) };
     const hit = world.status === "crash" ? stage.touch(now) : null;
     const given = { ego: egoPose, trail: stage.trail.slice(0, -1), hit, sensed: this.sensed.of(world), elapsedS };

@@ -2,7 +2,7 @@
 /** An answer with its evidence: causes to point at, the proof, and what else could have been done. */
 
 import { html, nothing } from "../../vendor/lit-html.js";
-import { t } from "../core/texts.js";
+import { nameText, t } from "../core/texts.js";
 import { MOVES, moveName, plain, reasonWords } from "../core/words.js";
 import { icon } from "../ui/icons.js";
 import { labelOf } from "../why/alternatives.js";
@@ -25,7 +25,7 @@ export function answerTemplate(answer, reply, page) {
     ${answer.tick !== null && others.length > 0 ? tickTemplate(answer.tick, page) : nothing}
     ${
       causes.length > 0
-        ? html`<ul class="causes" aria-label=${t("answer.causes")}>${causes.map((cause) => causeTemplate(cause, whole, page))}</ul>
+        ? html`<ul class="causes" aria-label=${t("answer.causes")}>${causes.map((cause) => causeTemplate(cause, causes, whole, page))}</ul>
             ${proofTemplate(answer)}`
         : nothing
     }
@@ -40,19 +40,30 @@ function tickTemplate(tick, page) {
   return html`<button class="answer-tick" type="button" title=${t("answer.go", { tick })} @click=${go}>${t("answer.at", { tick })}</button>`;
 }
 
-/** @param {Answer["causes"][number]} cause @param {Highlight | null} whole  what all of the answer points at @param {Page} page */
-function causeTemplate(cause, whole, page) {
+/** @typedef {Answer["causes"][number]} Cause */
+
+/** @param {Cause} cause @param {Cause[]} all @param {Highlight | null} whole  what all of the answer points at @param {Page} page */
+function causeTemplate(cause, all, whole, page) {
   const show = () => page.highlight({ ids: [cause.id], cells: cause.cell ? [cause.cell] : [] });
   const hide = () => page.highlight(whole);
   return html`<li>
-    <button class="cause" type="button" title=${t("answer.show")} data-kind=${cause.kind}
+    <button class="cause" type="button" title="${t("answer.show")} (${cause.id})" data-kind=${cause.kind}
       @pointerenter=${show} @pointerleave=${hide} @focus=${show} @blur=${hide} @click=${show}>
-      <span class="cause-name">${cause.id}</span><span class="cause-role">${roleText(cause)}</span>
+      <span class="cause-name">${nameOfCause(cause, all)}</span><span class="cause-role">${roleText(cause)}</span>
     </button>
   </li>`;
 }
 
-/** @param {Answer["causes"][number]} cause */
+/** By its kind; among others of that kind by its lane, or its id. @param {Cause} cause @param {Cause[]} all */
+function nameOfCause({ id, kind, cell }, all) {
+  const alike = all.filter((each) => each.kind === kind);
+  const name = nameText("nouns", kind);
+  if (alike.length === 1) return name;
+  const sameLane = alike.filter((each) => each.cell?.[0] === cell?.[0]).length > 1;
+  return cell && !sameLane ? t("place.called", { name, place: t("place.lane", { lane: cell[0] + 1 }) }) : id;
+}
+
+/** @param {Cause} cause */
 function roleText({ role, moves }) {
   return [plain(role), (moves ?? []).map(moveName).join(", ")].join(" ").trim();
 }

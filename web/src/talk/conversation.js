@@ -15,6 +15,7 @@ import { openQuestion, shown } from "./exchanges.js";
 /** @import { Page } from "../core/page.js" */
 /** @import { State } from "../core/state.js" */
 /** @import { Panel } from "../panels/index.js" */
+/** @import { Exchange } from "./exchanges.js" */
 
 const EXAMPLES = ["change", "why", "road"];
 
@@ -23,7 +24,11 @@ const EXAMPLES = ["change", "why", "road"];
 /** @param {HTMLElement} host @param {Page} page @returns {Panel} */
 export function createTalk(host, page) {
   // How exchanges look is fetched with the first of them.
-  const wanted = onDemand(page, async () => (await import("./exchange.js")).exchangeTemplate);
+  const wanted = onDemand(page, async () => {
+    const [{ exchangeTemplate }, { followEvaluations }] = await Promise.all([import("./exchange.js"), import("./evaluations.js")]);
+    followEvaluations(page);
+    return exchangeTemplate;
+  });
   /** @type {ExchangeTemplate | null} */ let looks = null;
 
   /** @param {State} state @param {State | null} before */
@@ -35,8 +40,8 @@ export function createTalk(host, page) {
       });
     }
     render(template(state, page, looks), host);
-    const known = new Set(before?.talk);
-    const newest = shown(state.talk).findLast((exchange) => !known.has(exchange));
+    const known = new Set(before?.talk.map(settledAs));
+    const newest = shown(state.talk).findLast((exchange) => !known.has(settledAs(exchange)));
     if (newest) host.querySelector(`[data-id="${newest.id}"]`)?.scrollIntoView({ block: "nearest" });
   }
 
@@ -50,6 +55,11 @@ export function createTalk(host, page) {
       if (state.talk !== before.talk || state.steps !== before.steps) show(state, before);
     },
   };
+}
+
+/** What of an exchange is worth scrolling to: that it is there, answered, and with what came of an evaluation. @param {Exchange} exchange */
+function settledAs({ id, standing, result }) {
+  return [id, standing, ...(result?.evaluations ?? []).map((each) => "text" in each && each.text)].join();
 }
 
 /** @param {State} state @param {Page} page @param {ExchangeTemplate | null} exchangeTemplate */

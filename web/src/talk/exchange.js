@@ -4,7 +4,9 @@
 import { html, nothing } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { changeWords, markWords } from "../core/words.js";
+import { linked } from "../panels/log.js";
 import { answerTemplate } from "./answer.js";
+import { evaluationTemplate } from "./evaluations.js";
 import { changesOf } from "./exchanges.js";
 
 /** @import { Page } from "../core/page.js" */
@@ -33,8 +35,8 @@ function resultTemplate(result, page, undos, taken) {
   const onRoad = changes.length === 1 ? changes : changes.filter(({ path }) => !isSetting(path));
   const settings = changes.filter((change) => !onRoad.includes(change));
   return html`${(result.corrections ?? []).map(correction)}
-    ${readAs(result)} ${result.answer ? answerTemplate(result.answer, result.reply, page) : html`<p class="reply">${result.reply.replaceAll(" → ", "\u00a0→\u00a0")}</p>`}
-    ${(result.evaluations ?? []).map(reportLink)}
+    ${readAs(result)} ${result.answer ? answerTemplate(result.answer, result.reply, page) : html`<p class="reply">${linked(result.reply.replaceAll(" → ", "\u00a0→\u00a0"))}</p>`}
+    ${(result.evaluations ?? []).map(evaluationTemplate)}
     ${
       // A thing moved changes no figure, and can be taken back all the same.
       changes.length > 0 || undos > 0 || taken
@@ -58,14 +60,6 @@ function resultTemplate(result, page, undos, taken) {
 function readAs({ source, reply, answer }) {
   const end = answer?.text ? reply.indexOf(answer.text) : -1;
   return source === "matched" && end > 0 ? html`<p class="reply read-as">${reply.slice(0, end).trim()}</p>` : nothing;
-}
-
-/**
- * Where the report of an evaluation will be, and how far it is until then.
- * @param {{links: {[name: string]: string}}} evaluation
- */
-function reportLink({ links }) {
-  return html`<p class="report-link"><a href=${links.report} target="_blank" rel="noopener">${t("exchange.report")}</a></p>`;
 }
 
 /** A word that was read as another. @param {{from: string, to: string}} read */

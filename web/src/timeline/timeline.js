@@ -4,12 +4,13 @@
 import { html, nothing, render } from "../../vendor/lit-html.js";
 import { t } from "../core/texts.js";
 import { clock } from "../core/words.js";
+import { byId } from "../ui/dom.js";
 import { icon } from "../ui/icons.js";
 import { find, fitCanvas } from "../ui/slot.js";
 import { createJumps } from "./jumps.js";
 import { drawLine, HEIGHT, xOf } from "./paint/line.js";
 import { byImportance, eventsIn, eventsNear, eventText, spanOf } from "./timelineEvents.js";
-import { sliderInput } from "./timelineInput.js";
+import { sliderInput, watchWheel } from "./timelineInput.js";
 import { allEvents, nowOf } from "./timelineState.js";
 
 /** @import { Page } from "../core/page.js" */
@@ -50,6 +51,8 @@ export function createTimeline(host, page) {
   show(null);
   const slider = find(host, ".line");
   const canvas = /** @type {HTMLCanvasElement} */ (find(host, "canvas"));
+  watchWheel(page, slider);
+  watchWheel(page, byId("road"), () => page.state().large === "road");
 
   return {
     commands: jumps.commands,

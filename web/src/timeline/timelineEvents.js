@@ -1,7 +1,7 @@
 // @ts-check
 /** Events along a run: in words, by importance, the next of a kind, and the length of the timeline. */
 
-import { listText, t } from "../core/texts.js";
+import { listText, nameText, t } from "../core/texts.js";
 
 /** @import { Kind, TimelineEvent } from "./timelineState.js" */
 
@@ -67,7 +67,7 @@ export function eventsNear(events, tick, reach) {
 
 /** An event in words. @param {TimelineEvent} event */
 export function eventText({ kind, ids = [], ticks = 1, text = "" }) {
-  const things = listText(ids.map((id) => id.replace("-", " "))) || t("timeline.events.something");
+  const things = listText(new Set(ids.map((id) => nameText("kinds", id.split("-")[0])))) || t("timeline.events.something");
   const key = kind === "crash" && ids.length > 0 ? "crash_with" : kind;
   return t(`timeline.events.${key}`, { things, text, count: ticks });
 }

@@ -1,5 +1,5 @@
 // @ts-check
-/** Pointer and keys on the timeline: dragged, pointed at, walked along. */
+/** Pointer, wheel and keys on the timeline: dragged, pointed at, walked along. */
 
 import { nowOf } from "./timelineState.js";
 import { tickAt } from "./paint/line.js";
@@ -7,6 +7,35 @@ import { tickAt } from "./paint/line.js";
 /** @import { Page } from "../core/page.js" */
 
 const LEAP = 10;
+/** So far a wheel is turned for a tick: about a notch. */
+const WHEEL_PX = 100;
+
+/**
+ * The wheel goes along the run, upwards to later ticks as the vehicle drives. A page that can scroll is scrolled instead,
+ * unless the wheel is turned sideways.
+ * @param {Page} page
+ * @param {HTMLElement} place  over which it does so
+ * @param {() => boolean} [wanted]
+ */
+export function watchWheel(page, place, wanted = () => true) {
+  let turned = 0;
+  place.addEventListener(
+    "wheel",
+    (event) => {
+      const { deltaX, deltaY, deltaMode, ctrlKey } = event;
+      const { scrollHeight, clientHeight } = document.documentElement;
+      const sideways = Math.abs(deltaX) > Math.abs(deltaY);
+      if (ctrlKey || !wanted() || (!sideways && scrollHeight > clientHeight)) return;
+      event.preventDefault();
+      const turn = (sideways ? deltaX : -deltaY) * (deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : 33);
+      turned = turn * turned < 0 ? turn : turned + turn;
+      const ticks = Math.trunc(turned / WHEEL_PX);
+      turned -= ticks * WHEEL_PX;
+      if (ticks !== 0) void page.timeTravel.step(ticks);
+    },
+    { passive: false },
+  );
+}
 
 /**
  * Listeners of the slider.

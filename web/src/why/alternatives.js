@@ -26,12 +26,15 @@ export function fetchDecision(session, tick, signal, http) {
 }
 
 /**
- * A change as a title: "Without pothole-3".
+ * A change as a title: "Without the pothole"; of several of a kind by their ids.
  * @param {Action[]} actions
  */
 export function labelOf(actions) {
   const ids = actions.map((action) => (action.do === "remove" ? /** @type {{id?: string}} */ (action.where)?.id : undefined));
-  if (ids.every((id) => id !== undefined)) return t("counterfactual.without", { things: listText(ids) });
+  if (ids.every((id) => id !== undefined)) {
+    const names = new Set(ids.map((id) => nameText("the", id.split("-")[0])));
+    return t("counterfactual.without", { things: listText(names.size < ids.length ? ids : names) });
+  }
   const [action] = actions;
   if (actions.length > 1 || action.do !== "remove" || action.count !== "all") return t("counterfactual.with_change");
   const { kind } = action;

@@ -5,9 +5,8 @@ import { t } from "../core/texts.js";
 import { moveName } from "../core/words.js";
 import { hindrance, placing, removing, TOOLS } from "../road/edit.js";
 import { same, thingIn } from "../road/hitTest.js";
-import { headingWords, nameOf, nounOf, placeWords } from "../road/placeTexts.js";
+import { calledOf, headingWords, nameOf, nounOf, placeWords } from "../road/placeTexts.js";
 import { egoOf } from "../road/world.js";
-import { labelOf } from "./alternatives.js";
 import { optionLine } from "./moveOptions.js";
 
 /** @import { Hypothesis } from "./alternatives.js" */
@@ -68,6 +67,7 @@ function ofThing(world, thing, decision, past) {
   const { id, kind } = thing;
   const part = linesAbout(decision, id);
   const change = removing(thing);
+  const called = calledOf(world, thing);
   return {
     kind,
     title: nounOf(thing),
@@ -81,10 +81,10 @@ function ofThing(world, thing, decision, past) {
       ...(decision && part.length > 0 ? [asking(t("bubble.ask_why"), decision)] : []),
       {
         text: t("bubble.what_if_gone"),
-        ...(past ? {} : { act: { actions: [{ do: "ask", about: "what_if", change }], label: t("ask.what_if_gone", { id }) } }),
-        pick: { kind: "change", tick: past ? world.tick : null, actions: change, label: labelOf(change) },
+        ...(past ? {} : { act: { actions: [{ do: "ask", about: "what_if", change }], label: t("ask.what_if_gone", { id: called }) } }),
+        pick: { kind: "change", tick: past ? world.tick : null, actions: change, label: t("counterfactual.without", { things: called }) },
       },
-      ...(past ? [] : [{ text: t("bubble.remove"), act: { actions: change, label: t("edit.remove", { id }), quiet: true } }]),
+      ...(past ? [] : [{ text: t("bubble.remove"), act: { actions: change, label: t("edit.remove", { id: called }), quiet: true } }]),
     ],
   };
 }
