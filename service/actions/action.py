@@ -168,7 +168,7 @@ class Ask:
             raise ValueError("only stops are long or short")
         if self.what == "ended" and self.metric not in ("crashes", "successes"):
             raise ValueError("ends are crashes or successes")
-        if self.what == "made" and self.move is Move.STAY:
+        if self.what == "made" and self.move == Move.STAY:
             raise ValueError("a move that is made leads somewhere: stays are stops")
         if self.what == "lane_changes" and self.move in (Move.STAY, Move.FORWARD):
             raise ValueError("a lane is changed to a side")

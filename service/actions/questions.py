@@ -392,7 +392,7 @@ COUNTED: Final[Mapping[str, frozenset[str]]] = {
 """What is counted over a drive, and the conditions that each takes beside ticks."""
 
 HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
-    "closest_call": (frozenset(),),
+    "closest_call": _STRETCHES,
     "summary": (frozenset(),),
     "since": (frozenset(("tick",)), frozenset(("ticks",)), frozenset(("seconds",))),
     "between": (frozenset(("tick", "until")),),

@@ -287,10 +287,15 @@ class _Maker:
             for key, each in said.items() if isinstance(said, dict) else ():
                 if told.setdefault(key, each) != each:
                     raise CannotBuild(f"two values for {key}")
-        if told.get("what") == "ended" and self._filled.of("past.episode"):
+        things, given = self._filled.of(THING), {edge.concept for edge in self._filled.slots}
+        if any(edge.sense.value.count not in (None, 1, "all") for edge in things):
+            raise CannotBuild("things are a reason whatever their number")
+        if bool(things) is not bool(given & {"past.for", "past.hit"}):
+            raise CannotBuild("a reason without a thing")
+        if told.get("what") == "ended" and "past.episode" in given:
             raise CannotBuild("ends are those of the session")
         try:
-            Ask(about="history", **{"what": "lanes_used", **told})
+            Ask(about="history", **{"what": self._filled.frame.actions[0].get("what"), **told})
         except ValueError as error:
             raise CannotBuild(str(error)) from None
         return told

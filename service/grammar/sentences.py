@@ -41,6 +41,7 @@ from service.actions import (
     load,
 )
 from service.actions.parameters import filled, paths
+from service.grammar.sentences_of_counts import counted_sentence, is_counted
 from service.grammar.sentences_of_rules import RuleSentences
 from service.grammar.sentences_of_things import Unsayable, number
 from sim.actions import (
@@ -351,41 +352,12 @@ class Sentences(RuleSentences):
             "setting_is_number", parameter=self._word("parameters", name), value=number(ask.value)
         )
 
-    def _counted(self, ask: Ask) -> str:
-        """What is counted over a drive, with its conditions."""
-        words = self._words["counted"]
-        move = "" if ask.move is None else words["moves"][ask.move]
-        event = str(ask.metric if ask.what == "ended" else ask.what)
-        event += "_kind" if event == "crashes" and ask.kind else "_move" if ask.move and event != "made" else ""
-        things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
-        rest = []
-        if ask.kind is not None and ask.what != "ended":
-            rest.append(words["because"].format(things=things))
-        if ask.lane is not None:
-            rest.append(words["lane"].format(lane=ask.lane))
-        if ask.parameter is not None:
-            rest.append(words[str(ask.parameter)][ask.value])
-        if ask.part is not None:
-            rest.append(words[ask.part])
-        for key in ("ticks", "seconds", "tick"):
-            if (value := getattr(ask, key)) is not None:
-                name = "one_tick" if key == "ticks" and value == 1 else "between" if ask.until is not None else key
-                rest.append(words[name].format(value=number(value), until=ask.until))
-        if ask.what == "lanes_used":
-            said = words["lanes_used_in" if ask.lane is not None else "lanes_used"]
-        else:
-            said = words[ask.want or "count"]
-        told = words["events"].get(event, "").format(move=move, things=things)
-        return said.format(event=told, rest="".join(f" {each}" for each in rest))
-
     def _history(self, ask: Ask) -> str:
         key = str(ask.what)
-        narrowed = (ask.want, ask.part, ask.lane, ask.parameter, ask.tick, ask.ticks, ask.seconds, ask.move)
-        if key in ("made", "ended") or (
-            key in ("stopped", "lane_changes", "lanes_used")
-            and (any(each is not None for each in narrowed) or (key == "lane_changes" and ask.kind))
-        ):
-            return self._counted(ask)
+        if is_counted(ask):
+            return counted_sentence(
+                self._words, ask, "" if ask.kind is None else self._entry("things", ask.kind)[1]
+            )
         if ask.what == "riskiest" and ask.tick is not None:
             key += "_between"
         if ask.what == "similar":

@@ -1,4 +1,4 @@
-"""Answers that count over a drive: stops and what they were for, lane changes, moves, ends, lanes, tight moments."""
+"""Answers that count over a drive: stops and what they were for, lane changes, moves, ends, tight moments."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """What happened in a stretch of a drive under conditions: stops, lane changes, moves, ends, ticks in lanes.
 
-A moment counts where all conditions hold in the state in which it was decided. What a decision was for is what
-it hung on, by running it again: without that, another move would have been made.
+A moment counts where all conditions hold in the state in which it was decided. What a decision was for is
+what it hung on, by running it again: without that, another move would have been made.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.triggers import NO_TRIGGERS
 from sim.types import Kind, Move, Outcome, kind_of
-
 
 Step = tuple[SimState, SimState]
 """A state, and the one that its decision led to."""
