@@ -27,7 +27,7 @@ EVENTS: tuple[dict[str, Any], ...] = (
     {"what": "ended", "metric": "successes"},
 )
 SAID = {
-    "en": {"lane": "in lane 3", "value": "n clear weather", "tick": "rom tick 4 ", "ticks": "last 9 ticks"},
+    "en": {"lane": "n lane 3", "value": "n clear weather", "tick": "rom tick 4 ", "ticks": "last 9 ticks"},
     "de": {"lane": "uf Spur 3", "value": "ei klarem Wetter", "tick": "b Tick 4", "ticks": "letzten 9 Ticks"},
 }
 
