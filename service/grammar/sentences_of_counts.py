@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from service.actions import Ask
-from service.grammar.sentences_of_things import number
+from service.grammar.sentences_of_things import Unsayable, number
 
 _BARE = ("stopped", "lane_changes", "lanes_used", "closest_call")
 """What has a sentence of its own where no condition is named."""
@@ -23,7 +23,9 @@ def is_counted(ask: Ask) -> bool:
 
 
 def counted_sentence(words: Mapping[str, Any], ask: Ask, things: str) -> str:
-    """The sentence for such a question; `things`: what the kind of things is called."""
+    """The sentence for such a question; `things`: what the kind of things is called. Raises `Unsayable`."""
+    if "counted" not in words:
+        raise Unsayable("the language counts nothing in its own words")
     said = words["counted"]
     move = "" if ask.move is None else str(said["moves"][ask.move])
     event = str(ask.metric if ask.what == "ended" else ask.what)
