@@ -18,6 +18,7 @@ from service.actions.evaluation import Advise, Evaluate, EvaluationTalk, FindWor
 from service.actions.goals import Goal, Style
 from service.actions.parameters import MAX_PARAMETERS, PhraseParameter, figure
 from service.actions.questions import (
+    COUNTED,
     HISTORY_KEYS,
     QUESTIONS,
     WHAT_KEYS,
@@ -30,6 +31,7 @@ from service.actions.questions import (
     MomentName,
     OtherName,
     OutlookName,
+    PartName,
     PlannersName,
     PolicyName,
     QuestionName,
@@ -37,6 +39,7 @@ from service.actions.questions import (
     SightName,
     SoonerName,
     Term,
+    WantName,
     WorldName,
 )
 from service.actions.steering import (
@@ -57,6 +60,7 @@ from service.actions.steering import (
     Undo,
 )
 from sim.actions import Cancel, Parameter, PlaceableKind, Trigger, Where, WorldAction
+from sim.config import CHOICES
 from sim.planner_names import PlannerName
 from sim.types import Move
 
@@ -126,6 +130,10 @@ class Ask:
     planners: Annotated[tuple[PlannerName, ...], MinLen(1), MaxLen(MAX_PLANNERS)] | None = None
     """the planners that are asked about, where not all of them"""
     planner: PlannerName | None = None
+    want: WantName | None = None
+    part: PartName | None = None
+    lane: Annotated[int, Ge(1)] | None = None
+    """the lane in which what is counted was decided, from 1 at the left"""
 
     __pydantic_config__ = STRICT
 
@@ -141,8 +149,8 @@ class Ask:
             raise ValueError(f"'{self.parameter}' has options and no value")
         if self.about == "scene" and self.count is not None and (self.count != 1 or self.kind is None):
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
-        if self.about == "history" and self.kind is not None and self.what not in ("passed", "stopped"):
-            raise ValueError("of the past, only what was passed and stops are asked of a kind of things")
+        if self.about == "history":
+            self._check_counted()
         if self.about == "sight" and (self.kind is None) is (self.what == "detection"):
             raise ValueError("of sensing, detection and nothing else is asked of a kind of things")
         supposed = self.what in (*get_args(PolicyName), *get_args(SoonerName))
@@ -163,6 +171,30 @@ class Ask:
         _refuse_kinds(
             "it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget, Trigger, Cancel)
         )
+
+    def _check_counted(self) -> None:
+        """Raise `ValueError` where a condition does not belong to what is counted over a drive."""
+        named = {key for key in _CONDITIONS if getattr(self, key) is not None}
+        if odd := sorted(named - COUNTED.get(str(self.what), frozenset())):
+            raise ValueError(f"'{odd[0]}' does not belong to a question about {self.what}")
+        if self.want in ("longest", "share") and self.what != "stopped":
+            raise ValueError("only stops are long or short")
+        if self.what == "ended" and self.metric not in ("crashes", "successes"):
+            raise ValueError("ends are crashes or successes")
+        if self.what == "made" and self.move == Move.STAY:
+            raise ValueError("a move that is made leads somewhere: stays are stops")
+        if self.what == "lane_changes" and self.move in (Move.STAY, Move.FORWARD):
+            raise ValueError("a lane is changed to a side")
+        if self.what == "ended" and self.kind is not None and self.metric != "crashes":
+            raise ValueError("only crashes are asked of a kind of things")
+        if self.what == "ended" and self.part in ("first_half", "second_half"):
+            raise ValueError("an episode ends in no half of it")
+        if self.part is not None and any(each is not None for each in (self.tick, self.ticks, self.seconds)):
+            raise ValueError("say ticks or a 'part'")
+        if self.parameter is not None or self.value is not None:
+            values = CHOICES.get(str(self.parameter), ())
+            if self.parameter not in ("weather", "time_of_day") or self.value not in values:
+                raise ValueError("what is counted is asked of a weather or a time of day")
 
     def _check_what(self, what: str) -> None:
         """Raise `ValueError` unless `what` belongs to the question and all is named that it needs."""
@@ -185,6 +217,9 @@ _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "
 """All that a question may name."""
 _BESIDE_WHAT = ("move", "tick", "until", "ticks", "seconds", "planners", "planner")
 """Keys that some values of `what` need, and others must not have."""
+
+_CONDITIONS = ("kind", "want", "part", "lane", "parameter", "value", "metric")
+"""Keys that narrow down what is counted over a drive."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -111,7 +111,13 @@ HistoryName = Literal[
     "stopped",
     "lanes_used",
     "tight",
+    "made",
+    "ended",
 ]
+WantName = Literal["list", "first", "last", "longest", "whether", "share"]
+"""What is wanted of what is counted; a count where it is not said. `share`: of the time."""
+PartName = Literal["first_half", "second_half", "session"]
+"""A stretch that is named without ticks, in place of the present episode."""
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
 `choices`: the moves of a decision, and what each would have met; `losses`: what the decisions of this episode
@@ -121,7 +127,7 @@ have made; `before_crash`: what was hit, and the ego, in the last ticks before t
 `lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went;
 `needed`: whether a move was needed, the latest that was not straight on by default; `stopped`: how often it
 stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: ticks with one free move or
-none.
+none; `made`: how often it made a move; `ended`: how episodes of the session ended.
 """
 SightName = Literal[
     "phantoms",
@@ -301,7 +307,12 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
     "history": QuestionTraits(
-        ("what", "move", "tick", "until", "ticks", "seconds", "count", "kind"), ("what",), runs_episodes=True
+        (
+            *("what", "move", "tick", "until", "ticks", "seconds", "count", "kind"),
+            *("want", "part", "lane", "metric", "parameter", "value"),
+        ),
+        ("what",),
+        runs_episodes=True,
     ),
     "styles": QuestionTraits(),
     "changes": QuestionTraits(("count", "tick")),
@@ -376,8 +387,23 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""
 
+_STRETCHES: Final = tuple(
+    frozenset(keys) for keys in ((), ("tick",), ("tick", "until"), ("ticks",), ("seconds",))
+)
+"""The ways to name the ticks in which something is counted; none is the present episode, or `part`."""
+
+COUNTED: Final[Mapping[str, frozenset[str]]] = {
+    "stopped": frozenset(("kind", "want", "part", "lane", "parameter", "value")),
+    "lane_changes": frozenset(("kind", "want", "part", "lane", "parameter", "value")),
+    "made": frozenset(("kind", "want", "part", "lane", "parameter", "value")),
+    "ended": frozenset(("kind", "want", "part", "lane", "parameter", "value", "metric")),
+    "lanes_used": frozenset(("part", "lane", "parameter", "value")),
+    "passed": frozenset(("kind",)),
+}
+"""What is counted over a drive, and the conditions that each takes beside ticks."""
+
 HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
-    "closest_call": (frozenset(),),
+    "closest_call": _STRETCHES,
     "summary": (frozenset(),),
     "since": (frozenset(("tick",)), frozenset(("ticks",)), frozenset(("seconds",))),
     "between": (frozenset(("tick", "until")),),
@@ -390,7 +416,10 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "waited": (frozenset(),),
     "differed": (frozenset(),),
     "before_crash": (frozenset(),),
-    **dict.fromkeys(("lane_changes", "passed", "verdict", "stopped", "lanes_used", "tight"), (frozenset(),)),
+    **dict.fromkeys(("passed", "verdict", "tight"), (frozenset(),)),
+    **dict.fromkeys(("stopped", "lanes_used", "ended"), _STRETCHES),
+    "lane_changes": (*_STRETCHES, *(each | {"move"} for each in _STRETCHES)),
+    "made": tuple(each | {"move"} for each in _STRETCHES),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

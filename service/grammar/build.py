@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+from service.actions import Ask
 from service.grammar.frames import Filled
 from service.grammar.lattice import Edge
 from service.grammar.lexicon import Sense
@@ -218,6 +219,8 @@ class _Maker:
                 return self._one_of_two(name)
             case "which":
                 return self._which(turn)
+            case "past":
+                return self._counted()
             case "becomes":
                 return self._becomes()
             case "ego_named":
@@ -274,6 +277,28 @@ class _Maker:
         if not where and (form != "the_one" or Kind(kind) is not Kind.PEDESTRIAN):
             raise CannotBuild("no one in particular")
         return {"kind": kind, **where}
+
+    def _counted(self) -> dict[str, Any]:
+        """What is counted over a drive, with all conditions that were said."""
+        told: dict[str, Any] = {}
+        for edge in self._filled.of("past", THING):
+            value = edge.sense.value
+            said = {"kind": value.of} if isinstance(value, Amount) else value
+            for key, each in said.items() if isinstance(said, dict) else ():
+                if told.setdefault(key, each) != each:
+                    raise CannotBuild(f"two values for {key}")
+        things, given = self._filled.of(THING), {edge.concept for edge in self._filled.slots}
+        if any(edge.sense.value.count not in (None, 1, "all") for edge in things):
+            raise CannotBuild("things are a reason whatever their number")
+        if bool(things) is not bool(given & {"past.for", "past.hit"}):
+            raise CannotBuild("a reason without a thing")
+        if told.get("what") == "ended" and "past.episode" in given:
+            raise CannotBuild("ends are those of the session")
+        try:
+            Ask(about="history", **{"what": self._filled.frame.actions[0].get("what"), **told})
+        except ValueError as error:
+            raise CannotBuild(str(error)) from None
+        return told
 
     def _ego(self) -> str:
         """The id of the ego that is named, by its id or its number in order."""

@@ -11,7 +11,7 @@ from typing import Any, get_args
 from pydantic import ValidationError
 
 from service.actions import QUESTIONS, WHATS, ChatKind, Choosable, MetricName, Term, ViewName, load
-from service.actions.questions import DetailName, PolicyName, SoonerName
+from service.actions.questions import DetailName, PartName, PolicyName, SoonerName, WantName
 from service.grammar.sentences import Sentences, Unsayable
 from service.styles import styles
 from sim.actions import (
@@ -214,6 +214,7 @@ def _questions() -> Iterator[dict[str, Any]]:
     for what in ("passed", "stopped"):
         yield {"do": "ask", "about": "history", "what": what, "kind": "pedestrian"}
     yield {"do": "ask", "about": "history", "what": "since", "seconds": 2.5}
+    yield from _counted()
     yield {"do": "ask", "about": "why", "move": "left", "instead": "right"}
     for how in get_args(DetailName):
         yield {"do": "ask", "about": "detail", "how": how}
@@ -221,6 +222,37 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "other", "what": "going", "which": which}
         for moved in ({}, {"move": "left"}, {"move": "right"}, {"move": "stay"}):
             yield {"do": "ask", "about": "other", "what": "why", "which": which, **moved}
+
+
+def _counted() -> Iterator[dict[str, Any]]:
+    """What is counted over a drive: each event with each wish, and each condition."""
+    asked = {"do": "ask", "about": "history"}
+    conditions: list[dict[str, Any]] = [
+        {"tick": 5},
+        {"tick": 5, "until": 20},
+        {"ticks": 10},
+        {"ticks": 1},
+        {"seconds": 2.5},
+        *({"part": part} for part in get_args(PartName)),
+        *({"parameter": "weather", "value": weather} for weather in get_args(Weather)),
+        *({"parameter": "time_of_day", "value": time} for time in get_args(TimeOfDay)),
+    ]
+    crashes = {"what": "ended", "metric": "crashes"}
+    for want in get_args(WantName):
+        yield asked | {"what": "stopped", "want": want}
+        yield asked | {"what": "stopped", "want": want, "kind": "vehicle", "lane": 2, "tick": 5}
+        if want not in ("longest", "share"):
+            yield asked | {"what": "lane_changes", "want": want, "move": "left"}
+            yield asked | crashes | {"want": want, "kind": "pothole"}
+    for each in conditions:
+        yield asked | {"what": "stopped"} | each
+        yield asked | {"what": "lanes_used"} | each
+    for move in ("left", "right", "forward", "forward_left", "forward_right"):
+        yield asked | {"what": "made", "move": move}
+    yield asked | crashes | {"part": "session", "lane": 2}
+    yield asked | {"what": "ended", "metric": "successes", "ticks": 100}
+    yield asked | {"what": "lanes_used", "lane": 2}
+    yield asked | {"what": "closest_call", "tick": 5, "until": 20}
 
 
 def _ahead_and_back() -> Iterator[dict[str, Any]]:

@@ -43,6 +43,7 @@ _MADE_OF = {
     "noun": frozenset(("thing",)),
     "first": frozenset(("meant",)),
     "second": frozenset(("meant",)),
+    "past": frozenset(("thing",)),
     "which": _PLACE | {"thing"},
     "steps_or_one": frozenset(("steps",)),
     "less": frozenset(("columns", "rows")),

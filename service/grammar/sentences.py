@@ -41,6 +41,7 @@ from service.actions import (
     load,
 )
 from service.actions.parameters import filled, paths
+from service.grammar.sentences_of_counts import counted_sentence, is_counted
 from service.grammar.sentences_of_rules import RuleSentences
 from service.grammar.sentences_of_things import Unsayable, number
 from sim.actions import (
@@ -359,6 +360,10 @@ class Sentences(RuleSentences):
 
     def _history(self, ask: Ask) -> str:
         key = str(ask.what)
+        if is_counted(ask):
+            return counted_sentence(
+                self._words, ask, "" if ask.kind is None else self._entry("things", ask.kind)[1]
+            )
         if ask.what == "riskiest" and ask.tick is not None:
             key += "_between"
         if ask.what == "similar":

@@ -1,17 +1,16 @@
-"""Answers about a drive as a whole: lane changes, what was left behind, how well it went."""
+"""Answers about a drive as a whole: what was left behind, how well it went."""
 
 from __future__ import annotations
 
 from contextlib import suppress
 
-from service.contract.encode.course import lane_changes_json, passed_json, verdict_json
+from service.contract.encode.course import passed_json, verdict_json
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, plain
 from service.narration.charges import in_seconds
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
-from sim.explain.lane_changes import LaneChanges, lane_changes
 from sim.explain.losses import Losses, losses
 from sim.explain.passed import Passed, passed
 from sim.explain.riskiest import MOST_TICKS, Risk, riskiest
@@ -21,7 +20,7 @@ from sim.types import PLACEABLE, Kind, Outcome
 
 
 class Courses:
-    """Answers to "how often did you change lanes?", "how many cars did we pass?", "how well did it go?"."""
+    """Answers to "how many cars did we pass?", "how well did it go?"."""
 
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
@@ -30,44 +29,13 @@ class Courses:
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
         ask, timeline = asked.ask, asked.timeline
-        match ask.what:
-            case "lane_changes":
-                changes = lane_changes(timeline)
-                text, facts = self._lanes(changes, timeline), lane_changes_json(changes)
-            case "passed":
-                found = passed(timeline)
-                kind = None if ask.kind is None else Kind(ask.kind)
-                text, facts = self._passed(found, kind), passed_json(found)
-            case _:
-                text, facts = self._verdict(timeline)
-        return plain(self._sayings, ask, timeline.state, text) | {"what": ask.what} | facts
-
-    def _lanes(self, found: LaneChanges, timeline: Timeline) -> str:
-        """How often, to which sides, and when last."""
-        if not found.driven:
-            return self._say("lanes", "not_begun")
-        seconds = in_seconds(self._sayings, found.driven, timeline.state.config)
-        if not found.found:
-            return self._say("lanes", "none", seconds=seconds)
-        last = found.found[-1]
-        if len(found.found) == 1:
-            side = self._say("sides", "left" if last.left else "right")
-            told = [
-                Part(
-                    0,
-                    self._say(
-                        "lanes", "one", seconds=seconds, side=side, when=self._when(last.tick, timeline)
-                    ),
-                )
-            ]
+        if ask.what == "passed":
+            found = passed(timeline)
+            kind = None if ask.kind is None else Kind(ask.kind)
+            text, facts = self._passed(found, kind), passed_json(found)
         else:
-            counts = {"count": len(found.found), "left": found.left, "right": found.right}
-            told = [Part(0, self._say("lanes", "many", seconds=seconds, **counts))]
-            if found.diagonal:
-                key = "diagonal_one" if found.diagonal == 1 else "diagonal"
-                told.append(Part(1, self._say("lanes", key, diagonal=found.diagonal)))
-            told.append(Part(1, self._say("lanes", "last", when=self._when(last.tick, timeline))))
-        return within(told)
+            text, facts = self._verdict(timeline)
+        return plain(self._sayings, ask, timeline.state, text) | {"what": ask.what} | facts
 
     def _passed(self, found: Passed, kind: Kind | None) -> str:
         """How many of a kind, or of every kind that there was."""

@@ -51,6 +51,8 @@ class History:
         else:
             found = past(timeline, first, last)
             text = self._text(str(ask.what), found)
+            if ask.what == "closest_call" and (ask.tick, ask.ticks) != (None, None):
+                text = f"{self._header(found)} {text}"
             facts |= _json(found)
         return plain(self._sayings, ask, timeline.state, text) | facts
 
@@ -130,8 +132,10 @@ def _stretch(asked: Asked) -> tuple[int, int]:
     if ask.ticks is not None:
         first = now - ask.ticks
     match ask.what:
-        case "between":
-            return first, first if ask.until is None else ask.until
+        case "closest_call" if ask.until is None and (ask.tick is not None or ask.ticks is not None):
+            return first, now
+        case "between" | "closest_call" if ask.until is not None:
+            return first, ask.until
         case "seen":
             return first, first
         case "since":

@@ -50,7 +50,7 @@ def test_lane_changes_are_counted_by_side() -> None:
             )
         elif not sides:
             assert told["text"].startswith("Not once")
-    assert "only begun" in answer(driven(0, seed=1), "history", "lane_changes")["text"]
+    assert "Nothing has been driven" in answer(driven(0, seed=1), "history", "lane_changes")["text"]
 
 
 def test_what_was_passed_is_told_by_kind() -> None:

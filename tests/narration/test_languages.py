@@ -7,12 +7,13 @@ import re
 from collections.abc import Iterator
 from functools import cache
 from string import Formatter
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 import yaml
 
 from service.actions import Ask
+from service.actions.questions import WantName
 from service.narration import Narrator
 from service.narration.inflection import Inflected, join_forms
 from service.narration.sayings import Sayings
@@ -241,6 +242,10 @@ def said(narrator: Narrator, draw: random.Random, timeline: Timeline) -> Iterato
         *(Ask(about="history", what=what) for what in ("lane_changes", "passed", "verdict")),
         *(Ask(about="history", what=what) for what in ("needed", "stopped", "lanes_used", "tight")),
         Ask(about="history", what="passed", kind=draw.choice(PLACEABLE).value),
+        Ask(about="history", what="stopped", part="second_half", kind=draw.choice(PLACEABLE).value),
+        Ask(about="history", what="stopped", want=draw.choice(get_args(WantName)), part="session"),
+        Ask(about="history", what="made", move=draw.choice([Move.LEFT, Move.FORWARD_RIGHT]), lane=2),
+        Ask(about="history", what="ended", metric="crashes", want="list"),
         Ask(about="blame", what="human"),
         Ask(about="planners", what="difference", planners=("astar", draw.choice(["rules", "bfs"]))),
         *(Ask(about="sight", what=what) for what in draw.sample(["care", "weathers", "sensors"], 1)),

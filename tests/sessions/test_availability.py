@@ -64,6 +64,8 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3},
     {"do": "ask", "about": "history", "what": "waited"},
     {"do": "ask", "about": "history", "what": "passed", "kind": "pedestrian"},
+    {"do": "ask", "about": "history", "what": "ended", "metric": "crashes", "want": "list"},
+    {"do": "ask", "about": "history", "what": "stopped", "kind": "vehicle", "part": "second_half"},
     {"do": "ask", "about": "planners", "what": "often"},
     {"do": "ask", "about": "sight", "what": "range"},
     {"do": "ask", "about": "world", "what": "chance"},

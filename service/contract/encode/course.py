@@ -1,30 +1,18 @@
-"""A drive as a whole as JSON values: lane changes, what was left behind, how well it went."""
+"""A drive as a whole as JSON values: what was counted, what was left behind, how well it went."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from sim.explain.lane_changes import LaneChanges
-from sim.explain.lanes_used import LanesUsed
 from sim.explain.losses import Losses
+from sim.explain.occurrences import Occurrence, Occurrences
 from sim.explain.passed import Passed
 from sim.explain.riskiest import Risk
-from sim.explain.stops import Stops
 from sim.explain.tight_moments import TightMoments
 from sim.explain.waits import Waits
 from sim.state import SimState
 
 Json = dict[str, Any]
-
-
-def lane_changes_json(found: LaneChanges) -> Json:
-    """Lane changes of an episode, in their order."""
-    return {
-        "lane_changes": [
-            {"tick": each.tick, "side": "left" if each.left else "right", "diagonal": each.diagonal}
-            for each in found.found
-        ]
-    }
 
 
 def passed_json(found: Passed) -> Json:
@@ -45,20 +33,34 @@ def verdict_json(state: SimState, waited: Waits, lost: Losses | None, risk: Risk
     }
 
 
-def stops_json(found: Stops) -> Json:
-    """Stops of an episode, in their order; `ids` is null where it was not looked for what one was for."""
-    return {
-        "driven": found.driven,
-        "stops": [
-            {"tick": each.tick, "ticks": each.ticks, "ids": None if each.ids is None else list(each.ids)}
-            for each in found.found
-        ],
-    }
+def occurrences_json(found: Occurrences, what: str) -> Json:
+    """What was counted, in its order; `ids` is null where it was not looked for what one was for.
+
+    Lanes are told the longest first; lane 1 is the leftmost.
+    """
+    facts: Json = {"first": found.first, "last": found.last, "driven": found.driven}
+    if what == "lanes_used":
+        return facts | {"lanes": [{"lane": lane, "ticks": ticks} for lane, ticks in found.lanes]}
+    return facts | {_NAMES[what]: [_occurrence_json(each, what) for each in found.found]}
 
 
-def lanes_used_json(found: LanesUsed) -> Json:
-    """Ticks in each lane, the longest first; lane 1 is the leftmost."""
-    return {"driven": found.driven, "lanes": [{"lane": lane, "ticks": ticks} for lane, ticks in found.ticks]}
+def _occurrence_json(each: Occurrence, what: str) -> Json:
+    told: Json = {"tick": each.tick}
+    if what == "lane_changes":
+        told |= {"side": "left" if each.left else "right", "diagonal": each.diagonal}
+    if what == "stopped":
+        told["ticks"] = each.ticks
+    if what == "ended":
+        told["outcome"] = each.before.world.outcome
+    if what == "made":
+        told["move"] = each.move
+    if what != "lane_changes" or each.ids is not None:
+        told["ids"] = None if each.ids is None else list(each.ids)
+    return told
+
+
+_NAMES = {"stopped": "stops", "lane_changes": "lane_changes", "made": "moves", "ended": "ends"}
+"""By what is asked, the name of the list of what was found."""
 
 
 def tight_json(found: TightMoments) -> Json:

@@ -7,7 +7,7 @@ from itertools import pairwise
 import pytest
 
 from sim.config import Config
-from sim.explain.lane_changes import lane_changes
+from sim.explain.occurrences import Event, Query, occurrences
 from sim.explain.passed import passed
 from sim.session.timeline import Timeline
 from sim.types import PLACEABLE, Outcome
@@ -28,9 +28,9 @@ def test_lane_changes_are_those_of_the_columns(seed: int) -> None:
     states = list(timeline.between(0, timeline.tick + 1))
     columns = [state.world.road.cell(state.world.av)[0] for state in states]
     steps = [there - here for here, there in pairwise(columns)]
-    found = lane_changes(timeline)
+    found = occurrences(timeline, Query(event=Event.LANE_CHANGE))
     assert [each.tick for each in found.found] == [tick for tick, step in enumerate(steps) if step]
-    assert (found.left, found.right) == (steps.count(-1), steps.count(1))
+    assert [each.left for each in found.found] == [step < 0 for step in steps if step]
     assert found.driven == timeline.tick
 
 
@@ -38,7 +38,7 @@ def test_a_step_that_slips_changes_no_lane() -> None:
     slipped = driven(
         40, seed=3, potholes=30, vehicles=4, planner="astar", weather="snow", slip_probability=1.0
     )
-    assert lane_changes(slipped).found == ()
+    assert occurrences(slipped, Query(event=Event.LANE_CHANGE)).found == ()
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -60,4 +60,4 @@ def test_what_was_passed_was_ahead_and_is_behind(seed: int) -> None:
 def test_at_the_start_nothing_was_passed() -> None:
     timeline = driven(0, seed=1)
     assert not any(passed(timeline).ids.values())
-    assert lane_changes(timeline).driven == 0
+    assert occurrences(timeline, Query(event=Event.LANE_CHANGE)).driven == 0

@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from itertools import pairwise
-
 import pytest
 
 from sim.config import Config
 from sim.explain.alternatives import after_move
 from sim.explain.coming_turn import LANE_CHANGES, STOPS, coming_turn
-from sim.explain.lanes_used import lanes_used
 from sim.explain.necessity import Need, necessity
+from sim.explain.occurrences import Event, Query, occurrences
 from sim.explain.question_error import QuestionError
-from sim.explain.stops import stops
 from sim.explain.tight_moments import tight_moments
-from sim.explain.waits import waits
 from sim.session.timeline import Timeline
-from sim.transition import step
-from sim.types import Kind, Move, Outcome
+from sim.types import Move, Outcome
 
 
 def driven(ticks: int, **parts: object) -> Timeline:
@@ -75,7 +69,7 @@ def test_a_wait_is_judged_by_all_of_its_ticks() -> None:
     seen = 0
     for seed in range(12):
         timeline = driven(30, seed=seed, planner="rules")
-        for stop in stops(timeline).found:
+        for stop in occurrences(timeline, Query(event=Event.STOP)).found:
             judged = necessity(timeline, stop.tick, Move.STAY)
             shut = [
                 tick
@@ -100,36 +94,16 @@ def test_what_was_not_made_is_not_judged() -> None:
     assert necessity(timeline, 2).foil is Move.STAY
 
 
-def test_stops_are_the_waits_and_hang_on_what_they_are_said_to_be_for() -> None:
-    kinds = set()
-    for seed in range(10):
-        timeline = driven(30, seed=seed, planner="rules")
-        found = stops(timeline)
-        assert found.ticks == waits(timeline).total
-        assert all(one.tick + one.ticks < other.tick for one, other in pairwise(found.found))
-        for stop in found.found:
-            if not stop.ids:
-                continue
-            gone = replace(stop.before, world=stop.before.world.without(frozenset(stop.ids)))
-            own = step(gone).of(None)
-            assert own is not None
-            assert own.decision.move is not Move.STAY
-            kinds |= set(stop.kinds)
-        for kind in Kind:
-            assert {stop.tick for stop in found.of(kind)} <= {stop.tick for stop in found.found}
-    assert len(kinds) > 1
-
-
 def test_the_seconds_of_all_lanes_are_those_of_the_drive() -> None:
     timeline = driven(12, seed=3, planner="astar")
-    found = lanes_used(timeline)
-    assert sum(ticks for _, ticks in found.ticks) == found.driven
+    found = occurrences(timeline, Query(event=Event.DRIVE))
+    assert sum(ticks for _, ticks in found.lanes) == found.driven
     counts = [
         timeline.at(tick).world.road.cell(timeline.at(tick).world.av)[0] + 1 for tick in range(found.driven)
     ]
-    assert dict(found.ticks) == {lane: counts.count(lane) for lane in set(counts)}
-    assert [ticks for _, ticks in found.ticks] == sorted((ticks for _, ticks in found.ticks), reverse=True)
-    assert lanes_used(driven(0, seed=3)).ticks == ()
+    assert dict(found.lanes) == {lane: counts.count(lane) for lane in set(counts)}
+    assert [ticks for _, ticks in found.lanes] == sorted((ticks for _, ticks in found.lanes), reverse=True)
+    assert occurrences(driven(0, seed=3), Query(event=Event.DRIVE)).lanes == ()
 
 
 def test_tight_moments_are_those_with_one_move_left() -> None:
