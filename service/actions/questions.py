@@ -111,6 +111,8 @@ HistoryName = Literal[
     "stopped",
     "lanes_used",
     "tight",
+    "first_half",
+    "second_half",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -121,7 +123,7 @@ have made; `before_crash`: what was hit, and the ego, in the last ticks before t
 `lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went;
 `needed`: whether a move was needed, the latest that was not straight on by default; `stopped`: how often it
 stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: ticks with one free move or
-none.
+none; `first_half`, `second_half`: of the present drive so far, or of all of it once it has ended.
 """
 SightName = Literal[
     "phantoms",
@@ -380,6 +382,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "differed": (frozenset(),),
     "before_crash": (frozenset(),),
     **dict.fromkeys(("lane_changes", "passed", "verdict", "stopped", "lanes_used", "tight"), (frozenset(),)),
+    **dict.fromkeys(("first_half", "second_half"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),
