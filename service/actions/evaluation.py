@@ -73,14 +73,24 @@ class Evaluate:
     __pydantic_config__ = STRICT
 
 
+EvaluationWish = Literal["progress", "cancel", "better"]
+"""What is wanted of an evaluation; `better`: which planner was."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EvaluationTalk:
-    """How the session's latest evaluation stands, or its end before it is done."""
+    """How the session's latest evaluation stands, its end before it is done, or who was better in it."""
 
     do: Literal["evaluation"] = "evaluation"
-    want: Literal["progress", "cancel"]
+    want: EvaluationWish
+    planners: tuple[PlannerName, ...] | None = None
+    """those of which one was better, where they are named"""
 
     __pydantic_config__ = STRICT
+
+    def __post_init__(self) -> None:
+        if self.planners is not None and (self.want != "better" or len(set(self.planners)) != 2):
+            raise ValueError("'planners' are the two of which one was better")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -113,11 +113,9 @@ HistoryName = Literal[
     "tight",
     "made",
     "ended",
+    "first_half",
+    "second_half",
 ]
-WantName = Literal["list", "first", "last", "longest", "whether", "share"]
-"""What is wanted of what is counted; a count where it is not said. `share`: of the time."""
-PartName = Literal["first_half", "second_half", "session"]
-"""A stretch that is named without ticks, in place of the present episode."""
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
 `choices`: the moves of a decision, and what each would have met; `losses`: what the decisions of this episode
@@ -127,8 +125,13 @@ have made; `before_crash`: what was hit, and the ego, in the last ticks before t
 `lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went;
 `needed`: whether a move was needed, the latest that was not straight on by default; `stopped`: how often it
 stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: ticks with one free move or
-none; `made`: how often it made a move; `ended`: how episodes of the session ended.
+none; `made`: how often it made a move; `ended`: how episodes of the session ended; `first_half`, `second_half`:
+of the present drive so far, or of all of it once it has ended.
 """
+WantName = Literal["list", "first", "last", "longest", "whether", "share"]
+"""What is wanted of what is counted; a count where it is not said. `share`: of the time."""
+PartName = Literal["first_half", "second_half", "session"]
+"""A stretch that is named without ticks, in place of the present episode."""
 SightName = Literal[
     "phantoms",
     "missed",
@@ -420,6 +423,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     **dict.fromkeys(("stopped", "lanes_used", "ended"), _STRETCHES),
     "lane_changes": (*_STRETCHES, *(each | {"move"} for each in _STRETCHES)),
     "made": tuple(each | {"move"} for each in _STRETCHES),
+    **dict.fromkeys(("first_half", "second_half"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

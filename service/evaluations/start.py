@@ -35,6 +35,8 @@ async def talk_of_evaluation(jobs: JobRunner | None, told: JobTold, session: str
     cancelled = False
     if jobs is not None and found is not None and told.want == "cancel":
         cancelled = await jobs.cancel(found.id)
+    elif jobs is not None and found is not None:
+        found = await jobs.get(found.id)  # with what came of it, which lists leave out
     return replace(told, known=True, job=found, cancelled=cancelled)
 
 

@@ -15,8 +15,9 @@ from service.grammar.accounting import VERB
 from service.grammar.clause import Clause, Divided, context_after
 from service.grammar.composition import Composition, Matcher, asks, within
 from service.grammar.fragments import AND, OR, PAUSE, STOP, THEN, Fragment
+from service.grammar.frames import Filled
 from service.grammar.lattice import Edge, Lattice
-from service.grammar.lexicon import Sense
+from service.grammar.lexicon import SECOND, Sense
 from service.grammar.noun_phrases import Amount
 from service.grammar.paths import NEGATION
 from service.grammar.single_clause import SingleClauses
@@ -89,7 +90,9 @@ class Divider:
             if not clause.actions:  # it says only what not to do, or asks for itself
                 return clause, used
             said = parts[at : at + used]
-            asked = self._composition.first_question(clause.actions, said)
+            if self._is_halved(clause, said):
+                return clause, used
+            asked = self._composition.first_question((clause.filled, clause.actions), said)
             if asked is not None:
                 end = at + max(asked, 1)
                 continue
@@ -118,6 +121,16 @@ class Divider:
                 end = at + heads[-1]
                 continue
             return replace(clause, instead=tuple(apart)), used
+
+    def _is_halved(self, clause: Clause, parts: Sequence[Fragment]) -> bool:
+        """Whether what a frame keeps begins in the first part and ends in another: "let A* and B race"."""
+        begun = {
+            edge.part
+            for edge in clause.filled.slots
+            if edge.part and edge.concept in clause.filled.frame.keeps and edge.end <= parts[0].end
+        }
+        ends = self._lattice.between(parts[1].start, clause.end)
+        return any(edge.part in begun and edge.concept == SECOND for edge in ends)
 
     def _first_of_two(
         self, parts: Sequence[Fragment], at: int, context: Context
@@ -185,7 +198,7 @@ class Divider:
     def _join(self, parts: Sequence[Fragment], at: int, context: Context) -> tuple[Clause | None, int]:
         """The longest listing clause that starts here, of two fragments or more."""
         last = at + 1
-        while last < min(len(parts), at + MAX_JOINED) and parts[last].after in _TOGETHER:
+        while last < min(len(parts), at + MAX_JOINED) and parts[last].after in (*_TOGETHER, OR):
             if parts[last].after != PAUSE and self._begins_request(parts, last):
                 break
             last += 1
@@ -195,6 +208,10 @@ class Divider:
             start, stop = parts[at].start, parts[end - 1].end
             stretch = self._stretches.make(start, stop, joined=True)
             found = self._matcher.match(stretch, verbless=None if context.verbless else False)
+            if any(part.after == OR for part in parts[at + 1 : end]):
+                if found is not None and self._keeps_or(found[0], parts[at + 1 : end]):
+                    return Clause(start, stop, *found), end - at
+                continue
             if found is not None and not self._each_whole(parts[at:end]):
                 return Clause(start, stop, *found), end - at
             if found is None and context.verb and not context.negated:
@@ -204,6 +221,11 @@ class Divider:
                 if leaning is not None:
                     return Clause(start, stop, *leaning), end - at
         return None, 0
+
+    def _keeps_or(self, filled: Filled, parts: Sequence[Fragment]) -> bool:
+        """Whether a frame keeps the "or" before each part that has one: it was asked which of two."""
+        kept = [edge.end for edge in self._lattice.all() if edge.concept in filled.frame.keeps]
+        return all(part.start in kept for part in parts if part.after == OR)
 
     def _either_way(self, parts: Sequence[Fragment], first: int, used: int) -> bool:
         """Whether a part may belong to the request before it as well as to the one after it."""

@@ -75,11 +75,15 @@ class Composition:
             if at and not kept[at] and self.verb_of_its_own(part) is not None and not all(kept[:at])
         ]
 
-    def first_question(self, joint: Sequence[Mapping[str, Any]], parts: Sequence[Fragment]) -> int | None:
-        """The first part that is a question by its own words, where the listing asks nothing."""
-        if asks(joint):
+    def first_question(self, joint: Reading, parts: Sequence[Fragment]) -> int | None:
+        """The first part that is a question by its own words, where the listing asks nothing.
+
+        What a frame keeps is none: "run it 100 times and give me the success rate" asks for that of the runs.
+        """
+        if asks(joint[1]):
             return None
-        own = ((at, self.verb_of_its_own(part)) for at, part in enumerate(parts))
+        apart = [at for at in range(len(parts)) if not self._belongs(joint[0], parts, at)]
+        own = ((at, self.verb_of_its_own(parts[at])) for at in apart)
         return next((at for at, found in own if found is not None and asks(found[1])), None)
 
     def swallows(self, joint: Reading, parts: Sequence[Fragment]) -> bool:
@@ -134,11 +138,18 @@ class Composition:
         return leaning if leaning is not None and asks(leaning[1]) else None
 
     def _belongs(self, joint: Filled, parts: Sequence[Fragment], at: int) -> bool:
-        """Whether a part that is set off by a comma has only what the frame keeps: "at tick 12, why …"."""
+        """Whether a part has only what the frame keeps, and is set off by a comma: "at tick 12, why …".
+
+        What is kept may hold the "and" before it itself: "run it 100 times and give me the success rate".
+        """
         part = parts[at]
-        if len(parts) == 1 or parts[max(at, 1)].after != PAUSE:
+        if len(parts) == 1:
             return False
-        inside = {edge.concept for edge in joint.slots if part.start <= edge.start and edge.end <= part.end}
+        said = [edge for edge in joint.slots if edge.start < part.end and edge.end > part.start]
+        spans = any(edge.start < part.start for edge in said)
+        if not spans and parts[max(at, 1)].after != PAUSE:
+            return False
+        inside = {edge.concept for edge in said}
         fillers = joint.frame.many.difference(*joint.frame.needs)
         return not inside.isdisjoint(joint.frame.keeps) and inside <= joint.frame.keeps | fillers
 

@@ -209,7 +209,7 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "history", "what": what, "ticks": 3}
     for what in ("waited", "differed", "before_crash", "lane_changes", "passed", "verdict"):
         yield {"do": "ask", "about": "history", "what": what}
-    for what in ("stopped", "lanes_used", "tight"):
+    for what in ("stopped", "lanes_used", "tight", "first_half", "second_half"):
         yield {"do": "ask", "about": "history", "what": what}
     for what in ("passed", "stopped"):
         yield {"do": "ask", "about": "history", "what": what, "kind": "pedestrian"}
@@ -292,7 +292,8 @@ def _rest() -> Iterator[dict[str, Any]]:
     yield {"do": "evaluate", "planners": ["astar", "dwa"], "scenario_name": "monday demo"}
     yield {"do": "evaluate", "planners": ["astar"], "map": ["potholes", "vehicles"]}
     yield {"do": "evaluate", "runs": 50, "map": ["vehicles", "barriers"]}
-    for want in ("progress", "cancel"):
+    yield {"do": "evaluation", "want": "better", "planners": ["astar", "priority"]}
+    for want in ("progress", "cancel", "better"):
         yield {"do": "evaluation", "want": want}
     yield {"do": "find_worst", "runs": 200, "planner": "astar"}
     for goal in get_args(GoalName):

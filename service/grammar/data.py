@@ -65,6 +65,8 @@ class LanguageData:
     """what may be meant by a lane that is not clear"""
     sentences: Mapping[str, Any]
     """how actions are said back; empty in a language that cannot"""
+    stand_ins: Mapping[str, str]
+    """words for things there are none of, and the word for what stands for each"""
     vague: int
     number_words: frozenset[str]
     answers: Answers
@@ -178,6 +180,7 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         messages=words["messages"],
         lanes=tuple(words.get("lanes", ())),
         sentences=documents.sentences,
+        stand_ins={said: stands for stands, each in words.get("stand_ins", {}).items() for said in each},
         vague=int(words["vague"]),
         number_words=numbers.words(),
         answers=answers,

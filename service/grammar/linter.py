@@ -22,6 +22,7 @@ from service.grammar.old_values import FROM, OLD_VALUE
 from service.grammar.parse_types import Ambiguous, Parse, Understood
 from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR, SPEAKER
 from service.grammar.pointing import POINTING
+from service.grammar.seconds_in_ticks import IN_TICKS
 from service.grammar.time_clauses import TIME
 
 ENGINE_CONCEPTS = frozenset(
@@ -75,7 +76,9 @@ AMOUNT_FORMS = frozenset(
     | {"those_counted", "asked", "half", "too_many", "too_few"}
     | {"id", "last", "last_counted"}
 )
-DIMENSIONS = frozenset({"number", "length", "speed", "seconds", "fraction", "times", "rate", "real_times"})
+DIMENSIONS = frozenset(
+    {"number", "length", "speed", "seconds", "fraction", "times", "rate", "real_times", IN_TICKS}
+)
 
 
 def flaws(data: LanguageData) -> list[str]:

@@ -6,13 +6,13 @@ this file and not the reverse. No word of any language is here either.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
 from pydantic import ValidationError
 
-from service.actions import Ask, load
+from service.actions import Action, Ask, load
 from service.grammar.asking import Asking, once
 from service.grammar.clause import Clause, Divided
 from service.grammar.contradictions import contradiction
@@ -21,6 +21,7 @@ from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.noun_phrases import QUANTITY, add_noun_phrases
 from service.grammar.order import orders
 from service.grammar.parse_types import (
+    Correction,
     Parse,
     Understood,
 )
@@ -29,11 +30,13 @@ from service.grammar.pointing import add_pointing
 from service.grammar.references import add_referents
 from service.grammar.refusing import is_impossible
 from service.grammar.same_sentence import asked_of_it, named_before
+from service.grammar.seconds_in_ticks import count_seconds_in_ticks, steps_in_seconds
 from service.grammar.shared_place import place_for_all
 from service.grammar.small_talk import same_again, small_talk
 from service.grammar.spoken_tick import name_spoken_tick
 from service.grammar.subordinate import read_all
 from service.grammar.time_clauses import read_in_time
+from sim.actions import Add, Scenario, SetCount
 
 SHIFT = "v.shift"
 """Concept of verbs that move things on the road."""
@@ -62,6 +65,8 @@ class Reading(Asking):
         if asking and (manners := small_talk(self._lattice) or same_again(self._lattice)):
             return Understood(self._text, load(manners), self._corrections)
         name_spoken_tick(self._lattice, self._topic.tick)
+        if steps_in_seconds(self._lattice):
+            count_seconds_in_ticks(self._lattice, self._topic.step_seconds)
         add_noun_phrases(self._lattice, self._language.data.vague)
         self._unclear = add_referents(self._lattice, self._topic)
         add_pointing(self._lattice)
@@ -105,7 +110,19 @@ class Reading(Asking):
         if (readings := place_for_all(clauses)) is not None:
             return self._which_place(readings, asking=asking)
         supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
-        return Understood(self._text, actions, self._corrections, supposes, spans)
+        return Understood(
+            self._text, actions, (*self._corrections, *self._stand_ins(actions)), supposes, spans
+        )
+
+    def _stand_ins(self, actions: Sequence[Action]) -> Iterator[Correction]:
+        """Words for things there are none of, where others are put on the road in their place."""
+        put = (each.kind == "vehicle" for each in actions if isinstance(each, Add | SetCount))
+        if not (any(put) or any(isinstance(each, Scenario) and each.vehicles for each in actions)):
+            return
+        known = self._language.data.stand_ins
+        for token in self._tokens:
+            if token.text in known:
+                yield Correction(self._plain[token.start : token.end], known[token.text])
 
     def _drives_a_thing(self, values: Sequence[dict[str, Any]]) -> bool:
         """Whether the vehicle would turn although something unknown was to be moved: "move it left"."""

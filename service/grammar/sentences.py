@@ -190,7 +190,7 @@ class Sentences(RuleSentences):
             case Evaluate():
                 return self._evaluate(action)
             case EvaluationTalk():
-                return self._say(f"evaluation_{action.want}")
+                return self._evaluation_talk(action)
             case FindWorst():
                 planner = action.planner and self._say(
                     "find_worst_planner", planner=self._value("planner", action.planner)
@@ -403,6 +403,11 @@ class Sentences(RuleSentences):
         return self._word(ask.about, key).format(
             planners=planners, tick=ask.tick, ticks=ask.ticks, seconds=seconds, move=move, things=things
         )
+
+    def _evaluation_talk(self, action: EvaluationTalk) -> str:
+        names = [self._value("planner", planner) for planner in action.planners or ()]
+        named = self._say("evaluation_of", planners=self._words["and"].join(names)) if names else ""
+        return self._say(f"evaluation_{action.want}", planners=named)
 
     def _evaluate(self, action: Evaluate) -> str:
         planners = [self._value("planner", planner) for planner in action.planners or ()]

@@ -168,6 +168,8 @@ class Topic:
     """of moments that were saved, in small letters: "go back to monday" is one of them, or something else"""
     columns: int = 8
     """how many lanes the road has: "the two right lanes" """
+    step_seconds: float = 0.5
+    """how long a tick is: "go back 5 seconds" """
 
 
 ALONE = Topic()

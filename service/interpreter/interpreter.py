@@ -120,7 +120,7 @@ class Interpreter:
         phrases = self.aliases.phrases(code)
         if session is None:
             return Topic(phrases=phrases)
-        topic = session.conversation.topic(session.run.world, phrases, session.undo_stack.bookmarks)
+        topic = session.conversation.topic(session.run, phrases, session.undo_stack.bookmarks)
         topic = topic if at_tick is None else replace(topic, looks_back=at_tick < session.timeline.tick)
         return topic if session.pending is None else replace(topic, asked_kind=session.pending.kind)
 

@@ -16,6 +16,7 @@ from service.store import JobRecord
 from sim.config import Config
 from sim.evaluate.closeness import TTC_S
 from sim.evaluate.spec import Evaluation
+from sim.planner_names import canonical
 from sim.sensor_names import DEFAULT_SENSOR
 from sim.types import Outcome
 
@@ -79,6 +80,8 @@ class EvaluationWords:
             return self._say("standing", "none" if job is None else "none_running")
         spec = Evaluation.from_json(job.spec)
         if job.result is not None:
+            if fact.want == "better":
+                return self._better(spec, job.result, job.id, fact.planners)
             return self.ended(spec, job.result, job.id)
         return self.standing_of(job, self.title(spec), job.done, job.total, cancelled=fact.cancelled)
 
@@ -192,6 +195,29 @@ class EvaluationWords:
             told.append(" ".join([self._say("case", condition=under, told=arrived), *pairs]))
         effects = [self._effect(each, summary) for each in summary.get("effects", ())]
         return [*told, " ".join(effects)] if effects else told
+
+    def _better(self, spec: Evaluation, summary: Json, job_id: str, named: tuple[str, ...] | None) -> str:
+        """Which of two planners was better in an evaluation, with its figures; of more, the figures alone."""
+        asked = [canonical(name) for name in named or spec.planners]
+        if not set(asked) <= set(spec.planners) or len(spec.planners) == 1:
+            form = "alone" if len(spec.planners) == 1 else "others"
+            return self._say("better", form, planners=self._planners(spec))
+        if len(asked) > 2 or spec.axes is not None:
+            return self.ended(spec, summary, job_id)
+        first, second = sorted(asked, key=spec.planners.index)
+        told = [self._arrived(first, summary), self._arrived(second, summary)]
+        pairs = [each for each in summary["comparisons"] if each["second"] == second]
+        if summary["alike"]:
+            told.insert(0, self._say("alike"))
+        elif pairs and pairs[0]["first"] == first:
+            pair = pairs[0]
+            share = pair["difference"]["share"]
+            form = (
+                "one" if pair["settled"] else "open" if pair["only_first"] or pair["only_second"] else "alike"
+            )
+            better = self.planner(first if share > 0 else second)
+            told.insert(0, self._say("better", form, planner=better))
+        return " ".join(told)
 
     def _effect(self, effect: Json, summary: Json) -> str:
         difference = effect["difference"]

@@ -140,8 +140,15 @@ def _stretch(asked: Asked) -> tuple[int, int]:
             return first, first
         case "since":
             return first, now
+    last = now if world.ended is None else world.ended
+    middle = (first + last) // 2
+    match ask.what:
+        case "first_half":
+            return first, middle
+        case "second_half":
+            return middle, last
         case _:
-            return first, now if world.ended is None else world.ended
+            return first, last
 
 
 def _json(found: Past) -> Json:

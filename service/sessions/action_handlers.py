@@ -153,7 +153,7 @@ def _evaluate(transaction: Transaction, action: Evaluate, _sequence: int, positi
 def _talk_of_evaluation(
     _transaction: Transaction, action: EvaluationTalk, _sequence: int, _position: int
 ) -> JobTold:
-    return JobTold(action.want)
+    return JobTold(action.want, action.planners)
 
 
 @handles(FindWorst)

@@ -43,6 +43,7 @@ from sim.actions import (
     Where,
 )
 from sim.session.edits import Applied
+from sim.state import SimState
 from sim.types import kind_of
 from sim.world import World
 
@@ -298,8 +299,9 @@ class Conversation:
             new._episode = number, start
         return new
 
-    def topic(self, world: World, phrases: Phrases, names: Iterable[str] = ()) -> Topic:
+    def topic(self, state: SimState, phrases: Phrases, names: Iterable[str] = ()) -> Topic:
         """What a sentence said now may refer to; `names` are those of bookmarks."""
+        world = state.world
         there = self._ids_on(world) if self._episode == _episode(world) else frozenset[str]()
         kinds: set[str | None] = {str(kind_of(name)) for name in self._things if name in there}
         kinds = kinds or {self._kind}
@@ -330,6 +332,7 @@ class Conversation:
             phrases=phrases,
             names=frozenset(name.casefold() for name in names),
             columns=world.road.columns,
+            step_seconds=state.config.step_seconds,
         )
 
     def _ids_on(self, world: World) -> frozenset[str]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 from service.actions import Action, Ask, Goal, Style
+from service.actions.evaluation import EvaluationWish
 from service.sessions.bookmarks import Bookmarked, Jumped
 from service.sessions.pending import NO_TALK, Talk
 from service.sessions.scheduler.playback_speed import NORMAL, PlaybackSpeed, PlaybackSpeedSet
@@ -15,6 +16,7 @@ from sim.evaluate import Evaluation
 from sim.falsify import Falsification
 from sim.goals import Finding
 from sim.hazard_advice import Advice
+from sim.planner_names import PlannerName
 from sim.session.edits import Applied, Change
 from sim.session.timeline import Timeline
 from sim.state import SimState, StepResult
@@ -114,7 +116,9 @@ class JobAsked:
 class JobTold:
     """How an evaluation stands, or its end; `job` is None where there is none, as in a replay."""
 
-    want: Literal["progress", "cancel"]
+    want: EvaluationWish
+    planners: tuple[PlannerName, ...] | None = None
+    """of whom one was better, where they are named"""
     known: bool = False
     """whether it was looked for"""
     job: JobRecord | None = None
@@ -169,7 +173,7 @@ def spread_facts(facts: Sequence[Fact]) -> Iterator[Fact]:
         elif isinstance(fact, JobAsked):
             yield replace(fact, job=None)
         elif isinstance(fact, JobTold):
-            yield JobTold(fact.want)
+            yield JobTold(fact.want, fact.planners)
         else:
             yield fact
 

@@ -418,6 +418,38 @@ async def test_how_far_it_is_can_be_asked_and_its_end_said(held: Service) -> Non
     assert again == "No evaluation of this session is under way."
 
 
+async def test_which_planner_was_better_is_told_of_the_latest_evaluation(running: Service) -> None:
+    path = await running.session()
+    asked = "so which was better, Rules or A*?"
+    assert "No evaluation was asked for" in (await running.say(path, asked)).json()["reply"]
+    (one,) = (await running.say(path, "run 30 episodes with A* and the rule planner")).json()["evaluations"]
+    result = (await ended(running, one["links"]["self"]))["result"]
+    told = (await running.say(path, "which was better, the rule planner or A*?")).json()["reply"]
+    share = {name: result["planners"][name]["arrived"]["count"] for name in ("astar", "priority")}
+    (pair,) = result["comparisons"]
+    better = "A*" if share["astar"] > share["priority"] else "The rule planner"
+    assert pair["settled"] is (f"{better} was better at arriving." in told)
+    assert f"{share['priority']} of 30 runs" in told
+    assert len(told.split()) <= 60
+    assert (await running.say(path, "which planner was better")).json()["reply"] == told
+    other = (await running.say(path, "which was better, A* or Dijkstra?")).json()["reply"]
+    assert "had no part in it" in other
+    (alone,) = (await running.say(path, "run 20 episodes with A*")).json()["evaluations"]
+    await ended(running, alone["links"]["self"])
+    assert "compared nothing" in (await running.say(path, "who won?")).json()["reply"]
+
+
+async def test_a_number_of_runs_is_never_left_out(running: Service) -> None:
+    path = await running.session()
+    for said, runs in (
+        ("run it 40 times and give me the success rate", 40),
+        ("how often do you crash in 30 runs?", 30),
+        ("what is the success rate if you do it 25 times?", 25),
+    ):
+        (action,) = (await running.say(path, said, dry_run=True)).json()["actions"]
+        assert (action["do"], action["runs"]) == ("evaluate", runs), said
+
+
 async def test_with_a_key_the_link_opens_its_report_and_nothing_else() -> None:
     app = create_app(
         Settings(database="memory:", api_key=SecretStr("k" * 20)),

@@ -102,6 +102,17 @@ def test_stops_are_counted_by_what_they_were_for() -> None:
     assert counted
 
 
+def test_the_halves_of_a_drive_are_the_whole_of_it() -> None:
+    timeline = driven(13, seed=3, planner="astar")
+    first, second = (answer(timeline, about="history", what=what) for what in ("first_half", "second_half"))
+    whole = answer(timeline, about="history", what="summary")
+    assert (first["first"], second["last"]) == (whole["first"], whole["last"])
+    assert first["last"] == second["first"] == (whole["first"] + whole["last"]) // 2
+    moves = {kind: first["moves"][kind] + second["moves"][kind] for kind in whole["moves"]}
+    assert moves == whole["moves"]
+    assert f"From tick {second['first']} to tick {second['last']}" in second["text"]
+
+
 def test_the_lane_of_most_ticks_comes_first() -> None:
     told = answer(driven(12, seed=3, planner="astar"), about="history", what="lanes_used")
     first = told["lanes"][0]

@@ -240,7 +240,10 @@ def said(narrator: Narrator, draw: random.Random, timeline: Timeline) -> Iterato
             for what in draw.sample(["runner_up", "scores", "waited", "differed", "before_crash"], 2)
         ),
         *(Ask(about="history", what=what) for what in ("lane_changes", "passed", "verdict")),
-        *(Ask(about="history", what=what) for what in ("needed", "stopped", "lanes_used", "tight")),
+        *(
+            Ask(about="history", what=what)
+            for what in ("needed", "stopped", "lanes_used", "tight", "first_half", "second_half")
+        ),
         Ask(about="history", what="passed", kind=draw.choice(PLACEABLE).value),
         Ask(about="history", what="stopped", part="second_half", kind=draw.choice(PLACEABLE).value),
         Ask(about="history", what="stopped", want=draw.choice(get_args(WantName)), part="session"),

@@ -80,6 +80,7 @@ OFFERED: list[dict[str, Any]] = [
     {"do": "evaluate", "runs": 5},
     {"do": "evaluation", "want": "progress"},
     {"do": "evaluation", "want": "cancel"},
+    {"do": "evaluation", "want": "better", "planners": ["astar", "priority"]},
     {"do": "find_worst"},
     {"do": "advise", "hazard": "pothole", "distance_m": 2, "speed_kmh": 40},
     {"do": "set", "parameter": "weather", "value": "rain"},
