@@ -125,8 +125,8 @@ have made; `before_crash`: what was hit, and the ego, in the last ticks before t
 `lane_changes`: how often it changed lanes; `passed`: what it has left behind; `verdict`: how well it went;
 `needed`: whether a move was needed, the latest that was not straight on by default; `stopped`: how often it
 stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: ticks with one free move or
-none; `made`: how often it made a move; `ended`: how episodes of the session ended; `first_half`, `second_half`:
-of the present drive so far, or of all of it once it has ended.
+none; `made`: how often it made a move; `ended`: how episodes of the session ended; `first_half`,
+`second_half`: of the present drive so far, or of all of it once it has ended.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""

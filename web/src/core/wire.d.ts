@@ -153,7 +153,7 @@ export interface Ask {
   parameter?: "weather" | "time_of_day" | "traffic" | "planner" | "sensor" | "dynamics" | "playback_speed" | "target_speed_kmh" | "step_seconds" | "spawn_probability" | "pothole_probability" | "courtesy" | "attentive" | "sensor_noise" | "detection_sensitivity" | "false_positive_rate" | "sensor_latency" | "slip_probability" | "traffic_by_hour" | "sensor_range_m" | "safety_buffer" | "columns" | "rows" | "seed" | "view" | "preference" | "road" | "layout" | null;
   value?: number | string | null;
   term?: "arrived" | "astar" | "attentive" | "av" | "barrier" | "bfs" | "camera" | "cautious" | "certificate" | "closest_call" | "columns" | "confidence" | "continuous" | "cooperative" | "courtesy" | "crash" | "detection_sensitivity" | "dijkstra" | "digest" | "dwa" | "dynamics" | "ego" | "episode" | "false_positive_rate" | "fastest" | "forecast" | "fusion" | "grid" | "layout" | "lidar" | "occupancy" | "pedestrian" | "percept" | "perfect" | "planner" | "playback_speed" | "pothole" | "pothole_probability" | "preference" | "priority" | "radar" | "regret" | "rl" | "rows" | "rss" | "rules" | "safety_buffer" | "seed" | "sensor" | "sensor_noise" | "sensor_range_m" | "smooth_ride" | "avoid_potholes" | "spawn_probability" | "step_seconds" | "stuck" | "success_rate" | "target_speed_kmh" | "tick" | "time_of_day" | "traffic" | "ttc" | "vehicle" | "weather" | "what_if" | null;
-  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "choices" | "losses" | "runner_up" | "scores" | "waited" | "differed" | "before_crash" | "lane_changes" | "passed" | "verdict" | "needed" | "stopped" | "lanes_used" | "tight" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "way" | "wait" | "free" | "matters" | "risk" | "coming" | "next_stop" | "next_change" | "fault" | "too_late" | "foreseen" | "avoidable" | "human" | "first_seen" | "here" | "compare" | "character" | "own" | "method" | "often" | "difference" | "lookahead" | "ties" | "replanning" | "precedence" | "costs" | "halts" | "prediction" | "parting" | "detour" | "phantoms" | "missed" | "truth" | "range" | "blind" | "weather" | "care" | "weathers" | "sensors" | "memory" | "unseen" | "detection" | "combining" | "prevents" | "pace" | "gap" | "stopping" | "right_of_way" | "harm" | "chance" | "colours" | "moves" | "movers" | "weights" | "learning" | "nature" | "sources" | "by_hand" | "giving_up" | "tick_order" | "sharing" | "fixtures" | "slippery" | "endings" | "road_made" | "realism" | "constancy" | "contact" | "points" | "behind" | null;
+  what?: "closest_call" | "summary" | "since" | "between" | "seen" | "riskiest" | "similar" | "choices" | "losses" | "runner_up" | "scores" | "waited" | "differed" | "before_crash" | "lane_changes" | "passed" | "verdict" | "needed" | "stopped" | "lanes_used" | "tight" | "made" | "ended" | "first_half" | "second_half" | "why" | "going" | "safe" | "arrival" | "crash" | "arrive_how" | "stuck" | "avoid_how" | "way" | "wait" | "free" | "matters" | "risk" | "coming" | "next_stop" | "next_change" | "fault" | "too_late" | "foreseen" | "avoidable" | "human" | "first_seen" | "here" | "compare" | "character" | "own" | "method" | "often" | "difference" | "lookahead" | "ties" | "replanning" | "precedence" | "costs" | "halts" | "prediction" | "parting" | "detour" | "straight" | "stand" | "in_lane" | "nonstop" | "sooner_stop" | "sooner_change" | "longer_wait" | "phantoms" | "missed" | "truth" | "range" | "blind" | "weather" | "care" | "weathers" | "sensors" | "memory" | "unseen" | "detection" | "combining" | "prevents" | "pace" | "gap" | "stopping" | "right_of_way" | "harm" | "chance" | "colours" | "moves" | "movers" | "weights" | "learning" | "nature" | "sources" | "by_hand" | "giving_up" | "tick_order" | "sharing" | "fixtures" | "slippery" | "endings" | "road_made" | "realism" | "constancy" | "contact" | "points" | "behind" | null;
   until?: number | null;
   ticks?: number | null;
   seconds?: number | null;
@@ -162,6 +162,9 @@ export interface Ask {
   which?: Which | null;
   planners?: ("rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative")[] | null;
   planner?: "rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative" | null;
+  want?: "list" | "first" | "last" | "longest" | "whether" | "share" | null;
+  part?: "first_half" | "second_half" | "session" | null;
+  lane?: number | null;
 }
 
 /** The first message of a socket where the service asks for a key: the key, or a ticket. */
@@ -469,10 +472,11 @@ export interface EvaluationSummary {
   links: { [key: string]: string };
 }
 
-/** How the session's latest evaluation stands, or its end before it is done. */
+/** How the session's latest evaluation stands, its end before it is done, or who was better in it. */
 export interface EvaluationTalk {
   do: "evaluation";
-  want: "progress" | "cancel";
+  want: "progress" | "cancel" | "better";
+  planners?: ("rules" | "priority" | "astar" | "dijkstra" | "bfs" | "exact" | "dwa" | "rl" | "cooperative")[] | null;
 }
 
 /** Lines of the log, oldest first. */
