@@ -25,7 +25,7 @@ def is_counted(ask: Ask) -> bool:
 def counted_sentence(words: Mapping[str, Any], ask: Ask, things: str) -> str:
     """The sentence for such a question; `things`: what the kind of things is called. Raises `Unsayable`."""
     if "counted" not in words:
-        raise Unsayable("the language counts nothing in its own words")
+        raise Unsayable("counted")
     said = words["counted"]
     move = "" if ask.move is None else str(said["moves"][ask.move])
     event = str(ask.metric if ask.what == "ended" else ask.what)

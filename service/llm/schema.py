@@ -46,6 +46,14 @@ WORDS: Final[dict[str, tuple[str, ...]]] = {
 }
 """The values of parameters that take words; all others take numbers."""
 
+_UNIONS: Final[dict[str, tuple[str, str]]] = {
+    "Kind": ("Add", "kind"),
+    "Planner": ("FindWorst", "planner"),
+    "Parameter": ("Set", "parameter"),
+    "View": ("Show", "view"),
+}
+"""Unions that many fields have, each under its name: the type and the field that it is read from."""
+
 _UNSPOKEN = frozenset(("ego",))
 """Fields for programs only: no sentence names an ego."""
 
@@ -62,6 +70,10 @@ def schema() -> str:
     told = "\n".join((*actions, *types.values()))
     lines = [f"type {name} = {part}" for name, part in types.items() if re.search(rf"\b{name}\b", told)]
     lines += actions
+    unions = {name: _type(_TYPES[of]["properties"][field]) for name, (of, field) in _UNIONS.items()}
+    for name, union in unions.items():
+        lines = [line.replace(union, name) for line in lines]
+    lines = [*(f"type {name} = {union}" for name, union in unions.items()), *lines]
     lines += [f"values of {parameter}: {' '.join(words)}" for parameter, words in WORDS.items()]
     return "\n".join(lines)
 

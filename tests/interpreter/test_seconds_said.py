@@ -29,7 +29,7 @@ def test_less_than_half_a_tick_is_no_tick() -> None:
 
 async def test_a_session_counts_in_its_own_ticks(service: Service) -> None:
     path = await service.session(config={"step_seconds": 0.25})
-    forth = (await service.say(path, "go forward 3 seconds")).json()
+    forth = (await service.say(path, "forward 3 seconds")).json()
     assert forth.get("actions") == [{"do": "step", "ticks": 12}], forth
     back = (await service.say(path, "go back 2 seconds")).json()
     assert back["actions"] == [{"do": "rewind", "ticks": 8}]
