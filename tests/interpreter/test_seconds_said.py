@@ -9,7 +9,7 @@ import pytest
 from service.actions import Rewind, Step
 from service.grammar import Language, Understood
 from service.grammar.topic import ALONE
-from tests.support.service import Service
+from tests.interpreter.conftest import Opening
 
 
 @pytest.mark.parametrize(("step_seconds", "ticks"), [(0.5, 10), (0.25, 20), (2.0, 2), (5.0, 1)])
@@ -27,10 +27,8 @@ def test_less_than_half_a_tick_is_no_tick() -> None:
     assert not isinstance(parsed, Understood)
 
 
-async def test_a_session_counts_in_its_own_ticks(service: Service) -> None:
-    path = await service.session(config={"step_seconds": 0.25})
-    forth = (await service.say(path, "forward 3 seconds")).json()
-    assert forth.get("actions") == [{"do": "step", "ticks": 12}], forth
-    back = (await service.say(path, "go back 2 seconds")).json()
-    assert back["actions"] == [{"do": "rewind", "ticks": 8}]
-    assert back["reply"] == "Back at tick 4."
+async def test_a_session_counts_in_its_own_ticks(opening: Opening) -> None:
+    talk = await opening(config={"step_seconds": 0.25})
+    assert (await talk.say("forward 3 seconds"))["actions"] == [{"do": "step", "ticks": 12}]
+    assert (await talk.say("go back 2 seconds"))["actions"] == [{"do": "rewind", "ticks": 8}]
+    assert (await talk.state())["tick"] == 4
