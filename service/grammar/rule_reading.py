@@ -245,17 +245,17 @@ class RuleReading:
         `in_rule`: a number of times that stands apart is not the request's, but that of the rule.
         """
         found: Readings = []
-        closing = self._closing(start, end)
+        opening, closing = self._opening(start, end), self._closing(start, end)
         for at in range(start + 1, end):
             for stop, times in self._at(REPEAT, at):
                 if stop in closing and not (in_rule and self._follows_mark(at)):
                     found += self._repeated(self._plainly(_Rest(start, at)), [times])
         for at in range(start + 1, end - 1):
             for stop, times in self._at(REPEAT, at):
-                if stop < end and not any(map(self._separates, range(start, end))):
+                if stop < end and not any(map(self._separates, range(max(opening), min(closing)))):
                     bodies = self._plainly(_Rest(start, end, gap=(at, stop)))
                     found += self._repeated(bodies, [times], is_amount=True)
-        for at in () if in_rule else self._opening(start, end):
+        for at in () if in_rule else opening:
             for stop, times in self._at(REPEAT, at):
                 if stop < (first := self._joined(stop, end)) < end:
                     found += self._repeated(self._plainly(_Rest(first, end)), [times], is_amount=True)

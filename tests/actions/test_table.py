@@ -123,7 +123,7 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
     named.pop("seconds", None)
     if about in ("why", "why_not", "what_if"):  # the moment may be named instead of a tick
         named.pop("what", None)
-    if about == "scene":  # of one kind, or the nearest of it
+    if about in ("scene", "other"):  # of one kind, or the nearest of it; of where another one goes
         del named["count"]
     if about == "what_if":  # a move in the past, or a change
         del named["move"]

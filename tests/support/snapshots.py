@@ -95,7 +95,7 @@ def whole(session: Session) -> dict[str, Any]:
         "undone": session.undo_stack.undone,
         "steps": session.undo_stack.steps,
         "saved": {name: (each.sequence, each.tick) for name, each in session.undo_stack.bookmarks.items()},
-        "topic": session.conversation.topic(session.run.world, Phrases()),
+        "topic": session.conversation.topic(session.run, Phrases()),
         "mixed": session.partial_changes,
         "log": (session.log.last_number, session.log.latest(400)),
     }
