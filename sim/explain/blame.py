@@ -17,7 +17,7 @@ from typing import Final
 
 from sim.explain.alternatives import after_move
 from sim.explain.avoidance import UNKNOWN, Avoidable, Avoidance, find_avoidance
-from sim.explain.crash import SAVED_WITHIN, Crash, why_crashed
+from sim.explain.crash import SAVED_WITHIN, Crash, is_detected, why_crashed
 from sim.explain.episode_rollout import rollout, summarize
 from sim.explain.foresight import driving
 from sim.forecast import predict
@@ -102,7 +102,7 @@ class Foreseen:
     state: SimState
     """the state before the crash"""
     seen_since: int | None
-    """the first of the ticks without a break in which what was hit was seen; None if not at the end"""
+    """the first of the ticks without a break that detected what was hit where it was; None if not at the end"""
     expected_since: int | None
     """the same of those in which the forecast had it meet the ego's last move"""
 
@@ -148,7 +148,7 @@ def foreseen(timeline: Timeline, tick: int | None = None, *, ego: str | None = N
         if taken is None:
             break
         now, ahead = state.world.tick, fatal.world.tick - state.world.tick
-        looking_seen = looking_seen and any(taken.percept.find(name) is not None for name in hit)
+        looking_seen = looking_seen and any(is_detected(taken.percept, state.world, name) for name in hit)
         if looking_expected:
             met = predict(taken.percept, ahead + 1).check_step(start, end, ahead)[1]
             looking_expected = bool(hit.intersection(met))

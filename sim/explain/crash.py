@@ -253,10 +253,18 @@ def _missed(rerun: Intervention, name: str) -> bool:
     """Whether a thing was there and not detected where it was."""
     if rerun.faithful:
         return False
-    there, seen = rerun.state.world.find(name), rerun.percept.find(name)
+    there = rerun.state.world.find(name)
     if there is None or there.kind is Kind.AV:
         return False
-    return seen is None or (seen.kind, seen.cell) != (there.kind, there.cell)
+    return not is_detected(rerun.percept, rerun.state.world, name)
+
+
+def is_detected(percept: Percept, world: World, name: str) -> bool:
+    """Whether a percept has a thing where it is, rather than where it was when it was last detected."""
+    there, seen = world.find(name), percept.find(name)
+    if seen is None or there is None or there.kind is Kind.AV:
+        return seen is not None
+    return (seen.kind, seen.cell) == (there.kind, there.cell)
 
 
 def _last_tick(rerun: Intervention, met: tuple[Option, ...], made: Mapping[str, Move]) -> Explanation:

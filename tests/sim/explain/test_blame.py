@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from sim.explain import QuestionError
@@ -13,10 +15,10 @@ from sim.types import Move, Outcome
 from tests.sim.explain.test_ahead import moments, some_way
 
 
-def crashes(count: int) -> list[Timeline]:
+def crashes(count: int, **config: Any) -> list[Timeline]:
     """Sessions that have crashed, on roads where nobody reacts."""
     found = []
-    for timeline in moments(10**6, attentive=0.0, planner="priority", vehicles=20):
+    for timeline in moments(10**6, attentive=0.0, planner="priority", vehicles=20, **config):
         while timeline.state.world.outcome is Outcome.RUNNING:
             timeline.advance()
         if timeline.state.world.outcome is Outcome.CRASH:
@@ -77,6 +79,22 @@ def test_what_was_seen_coming_was_there_to_be_seen() -> None:
         ids = {name for name in found.crash.cause.ids if name != "av-1"}
         assert all(any(world.find(name) for name in ids) for world in worlds)
     assert expected > 0
+
+
+def test_what_was_not_detected_where_it_was_was_not_seen_then() -> None:
+    """A track that is remembered is no sighting: the answers about a crash agree."""
+    missed = remembered = 0
+    for timeline in crashes(25, sensor="radar", weather="rain"):
+        found = foreseen(timeline)
+        own = found.crash.explanation.decision.av
+        hit = {name for name in found.crash.cause.ids if name != own}
+        assert (found.seen_since is None) is hit.issubset(found.crash.missed)
+        missed += found.seen_since is None
+        taken = timeline.taken(found.state, own)
+        assert taken is not None
+        remembered += found.seen_since is None and any(taken.percept.find(name) for name in hit)
+    assert missed > 0
+    assert remembered > 0
 
 
 def test_without_a_crash_there_is_no_blame() -> None:
