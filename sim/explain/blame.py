@@ -102,7 +102,7 @@ class Foreseen:
     state: SimState
     """the state before the crash"""
     seen_since: int | None
-    """the first of the ticks without a break that detected what was hit where it was; None if not at the end"""
+    """the first tick since which what was hit was detected where it was; None if not at the end"""
     expected_since: int | None
     """the same of those in which the forecast had it meet the ego's last move"""
 
