@@ -343,24 +343,28 @@ Fact = Literal[
     "arrival",
     "stuck",
     "episode",
+    "move",
     "every",
     "after",
     "tick",
     "row",
     "lane",
+    "standing",
     "goal",
     "near",
     "count",
     "weather",
     "time_of_day",
 ]
-"""What a condition is about. Events (they happen in a tick): `crash`, `arrival`, `stuck`, and `episode`, a
-road that begins. Times: `every`, `after` (since the rule was made) and `tick` (of the session). The rest are
-so or not so: `row`, `lane`, `goal` (how far the goal is), `near` (how far the nearest thing is), `count` (how
-many things there are), `weather`, `time_of_day`."""
+"""What a condition is about. Events (they happen in a tick): `crash`, `arrival`, `stuck`, `episode`, a road
+that begins, and `move`, a step to the side. Times: `every`, `after` (since the rule was made) and `tick` (of
+the session). The rest are so or not so: `row`, `lane`, `standing` (it stayed where it was), `goal` (how far
+the goal is), `near` (how far the nearest thing is), `count` (how many things there are), `weather`,
+`time_of_day`."""
 
 _KEYS: dict[str, tuple[frozenset[str], ...]] = {
-    **dict.fromkeys(("crash", "arrival", "stuck", "episode"), (frozenset(),)),
+    **dict.fromkeys(("crash", "arrival", "stuck", "episode", "standing"), (frozenset(),)),
+    "move": (frozenset(("move",)),),
     **dict.fromkeys(("every", "after"), (frozenset(("ticks",)), frozenset(("seconds",)))),
     "tick": (frozenset(("tick",)),),
     "row": (frozenset(("row",)),),
@@ -396,6 +400,8 @@ class Condition:
     row: Row | None = None
     """reached: the first ego is there or nearer to the goal"""
     lane: Literal["left", "middle", "right"] | Lane | None = None
+    move: Literal["left", "right", "lane_change"] | None = None
+    """the first ego came into a lane further left, further right, or either"""
     kind: PlaceableKind | None = None
     closer_than_m: Annotated[float, Gt(0)] | None = None
     within_m: Annotated[float, Gt(0)] | None = None

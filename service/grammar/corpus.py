@@ -322,7 +322,8 @@ def _rules() -> Iterator[dict[str, Any]]:
     """Rules with each kind of condition, and what switches them off."""
     car = [{"do": "add", "kind": "vehicle", "count": 1}]
     conditions: list[dict[str, Any]] = [
-        *({"fact": fact} for fact in ("crash", "arrival", "stuck", "episode")),
+        *({"fact": fact} for fact in ("crash", "arrival", "stuck", "episode", "standing")),
+        *({"fact": "move", "move": move} for move in ("left", "right", "lane_change")),
         {"fact": "after", "ticks": 20},
         {"fact": "after", "seconds": 2.5},
         {"fact": "tick", "tick": 50},

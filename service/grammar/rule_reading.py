@@ -38,6 +38,8 @@ MAX_PARTS = 3
 """How many sentences with rules one text may have."""
 MATCH_STEPS = 20
 """What looking for a condition at one token costs."""
+_OFTEN = ("every", "episode")
+"""Facts beside which a number of times is how often the rule is done."""
 _STOP = "stop"
 _NONE: Mapping[str, Any] = {}
 
@@ -145,6 +147,13 @@ class RuleReading:
             if part in rest.parts or (part in (WHEN, ONCE) and rest.parts.keys() & {WHEN, ONCE}):
                 continue
             for begin in opening:
+                if (
+                    part == TIMES
+                    and begin
+                    and rest.parts.keys() & {WHEN, ONCE}
+                    and not self._follows_mark(begin)
+                ):
+                    continue  # "if it crashes twice" says how often it crashes
                 for stop, value in self._at(part, begin):
                     if stop <= (rest.end if rest.gap is None else rest.gap[0]):
                         first = self._joined(stop, rest.end)
@@ -153,7 +162,7 @@ class RuleReading:
                 if part == TIMES and rest.parts.keys() & {WHEN, ONCE} and not self._follows_mark(at):
                     continue  # "turn left twice every ten ticks" turns twice each time
                 for stop, value in self._at(part, at):
-                    if stop in closing:
+                    if stop in closing and not self._is_of_condition(rest, part, value):
                         yield from self._left(rest.without(part, value, end=at))
 
     def _rests_around(self, rest: _Rest) -> Iterator[_Rest]:
@@ -169,6 +178,11 @@ class RuleReading:
                     if stop < rest.end and not self._separates(stop):
                         around = rest.without(part, value)
                         yield from self._left(replace(around, gap=(at, stop)))
+
+    def _is_of_condition(self, rest: _Rest, part: str, value: Any) -> bool:
+        """Whether the number of times taken off is part of the condition: "when it crashes twice"."""
+        timed = TIMES in rest.parts and rest.end < len(self._said.tokens)
+        return part == WHEN and timed and value["fact"] not in _OFTEN and not self._follows_mark(rest.end)
 
     def _separates(self, at: int) -> bool:
         return any(edge.concept == SEPARATOR for edge in self._lattice.edges[at])
@@ -202,6 +216,10 @@ class RuleReading:
             key = repr(value)
             if key not in longest or longest[key][0] < stop:
                 longest[key] = stop, value
+        ends = [stop for stop, _ in longest.values()]
+        if part in (WHEN, ONCE, UNTIL):
+            # "When it stops raining" is not "when it stops".
+            return [(stop, value) for stop, value in longest.values() if stop == max(ends)]
         return list(longest.values())
 
     def _of_rest(self, rest: _Rest) -> Readings:

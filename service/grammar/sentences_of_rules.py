@@ -42,6 +42,8 @@ class RuleSentences(ThingSentences):
         if condition.lane is not None:
             lanes = self._words.get("rule_lanes", {})
             words["lane"] = lanes.get(condition.lane) or self._say("rule_lane", lane=condition.lane)
+        if condition.move is not None:
+            words["move"] = self._word("rule_moves", condition.move)
         words["side"] = "" if condition.side is None else self._word("rule_sides", condition.side)
         if condition.fact in SETTINGS:
             form_of_setting = "rule_no_longer" if condition.no_longer else "rule_is"

@@ -118,6 +118,8 @@ class Rules:
         kind = condition.kind
         parts = {name: self._number(value) for name, value in keys.items() if name != "kind"}
         parts |= {"lane": self._lane(condition), "side": self._side(condition), "is": self._is(condition)}
+        if condition.move is not None:
+            parts["move"] = self._sayings.words("rules", "moves")[condition.move]
         if kind is not None:
             parts |= {"a": self._sayings.say("words", "a", kind), "things": self._sayings.things(kind, 2)}
         exactly = condition.at_least is not None and condition.at_least == condition.at_most

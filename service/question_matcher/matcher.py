@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from service.actions import Action, Ask, Chat
+from service.actions import Action, Ask, Chat, Resume, Undo
 from service.grammar import Language
 from service.grammar.parse_types import Understood
 from service.grammar.topic import ALONE
@@ -23,6 +23,7 @@ from service.question_matcher.follow_ups import FollowUps
 from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, Situation, read_kinds
 from service.question_matcher.slots import Question, SlotWords
 from service.question_matcher.weights import FILE, Weights
+from sim.actions import Pause, Reset
 
 NEAR = 1.5
 """Lead over another kind, in logarithms of odds, below which both are offered."""
@@ -45,6 +46,7 @@ MAX_CHOICES = 3
 MAX_WORDS = 60
 MOST_FOLLOWING = 60
 """Letters of a follow-up."""
+_CLOCK = (Pause, Resume, Reset, Undo)
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,17 +143,20 @@ class QuestionMatcher:
         joined = "|".join(map(re.escape, sorted(self._language.joiners)))
         parts = [part.strip() for part in re.split(rf"[.;!?,]|\b(?:{joined})\b", text)]
         return any(
-            self._does_something(part) for at, part in enumerate(parts) if part and (at == 0 or " " in part)
+            self._does_something(part, alone=at > 0 and " " not in part) for at, part in enumerate(parts)
         )
 
-    def _does_something(self, part: str) -> bool:
+    def _does_something(self, part: str, *, alone: bool) -> bool:
+        """Whether a part is a request; of a word `alone` only one about the clock: "fog" may be a topic."""
+        if not part:
+            return False
         try:
             # Not `parse`: what would be asked about or suggested is of no use here.
             parse = self._language.read(part, ALONE, WorkBudget(), asking=False)
         except BudgetExceededError:
             return True
-        return isinstance(parse, Understood) and not all(
-            isinstance(each, Ask | Chat) for each in parse.actions
+        return isinstance(parse, Understood) and any(
+            isinstance(each, _CLOCK) if alone else not isinstance(each, Ask | Chat) for each in parse.actions
         )
 
     def _unknown(self, words: Sequence[str]) -> list[str]:

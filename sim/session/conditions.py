@@ -16,7 +16,7 @@ from sim.world import World
 ENDS = {"crash": Outcome.CRASH, "arrival": Outcome.SUCCESS, "stuck": Outcome.STUCK}
 """Facts that end an episode."""
 
-MOMENTS = frozenset((*ENDS, "episode", "every", "after", "tick"))
+MOMENTS = frozenset((*ENDS, "episode", "move", "every", "after", "tick"))
 """Facts that hold in single ticks; the others hold for as long as they are so."""
 
 SETTINGS = frozenset(("weather", "time_of_day"))
@@ -38,6 +38,11 @@ def holds(condition: Condition, before: SimState, after: SimState, since: int) -
             return world.tick - since >= _ticks(condition, after)
         case "tick":
             return condition.tick is not None and world.tick >= condition.tick
+        case "move":
+            lanes = _lanes_moved(before, after)
+            return lanes != 0 and condition.move in ("lane_change", "left" if lanes < 0 else "right")
+        case "standing":
+            return has_stood(before, after)
         case _:
             return is_so(condition, after)
 
@@ -48,12 +53,35 @@ def has_just_ended(state: SimState, end: str) -> bool:
     return world.outcome is ENDS[end] and world.ended == world.tick
 
 
+def has_stood(before: SimState, after: SimState) -> bool:
+    """Whether the first ego was on its way in a tick, and stayed in its cell."""
+    return _is_driven(before, after) and before.world.avs[0] == after.world.avs[0]
+
+
+def _lanes_moved(before: SimState, after: SimState) -> int:
+    """By how many lanes the first ego came to the right in a tick; negative to the left."""
+    if not _is_driven(before, after):
+        return 0
+    road = after.world.road
+    return road.cell(after.world.avs[0])[0] - road.cell(before.world.avs[0])[0]
+
+
+def _is_driven(before: SimState, after: SimState) -> bool:
+    """Whether a tick is one of driving, and not of a road that begins or of a result that stands."""
+    was, world = before.world, after.world
+    same_road = (was.episode, was.episode_start) == (world.episode, world.episode_start)
+    return same_road and was.tick < world.tick and was.outcome is Outcome.RUNNING
+
+
 def is_so(condition: Condition, state: SimState) -> bool:
-    """Whether a condition about the road holds in a state; events and times hold in none."""
+    """Whether a condition about the road holds in a state; events, times and `standing` hold in none.
+
+    Whether it stands is only seen from one state to the next: see `has_stood`.
+    """
     if condition.fact in SETTINGS:
         said = getattr(state.config, condition.fact) == getattr(condition, condition.fact)
         return said is not bool(condition.no_longer)
-    if condition.fact in MOMENTS or state.world.outcome is not Outcome.RUNNING:
+    if condition.fact in (*MOMENTS, "standing") or state.world.outcome is not Outcome.RUNNING:
         return False
     world = state.world
     column, row = world.road.cell(world.avs[0])

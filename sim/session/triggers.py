@@ -14,7 +14,7 @@ from typing import Final
 from sim.actions import MAX_FIRINGS, Pause
 from sim.events import Event, EventType
 from sim.session.applied import Applied
-from sim.session.conditions import ENDS, MOMENTS, SETTINGS, has_just_ended, holds, is_so
+from sim.session.conditions import ENDS, MOMENTS, SETTINGS, has_just_ended, has_stood, holds, is_so
 from sim.session.edits import apply
 from sim.session.errors import EditError
 from sim.state import SimState
@@ -30,7 +30,7 @@ def fire(before: SimState, after: SimState) -> tuple[SimState, tuple[Event, ...]
     due = {rule.number: _due(rule, before, after) for rule in after.triggers.standing}
     state, events, standing = after, list[Event](), list[StandingTrigger]()
     for rule in after.triggers.standing:
-        number, held = rule.number, _held(rule, after)
+        number, held = rule.number, _held(rule, before, after)
         if _has_ended(rule, before, after):
             events.append(_event(state, EventType.TRIGGER_ENDED, number, how="done"))
             continue
@@ -68,9 +68,11 @@ def _due(rule: StandingTrigger, before: SimState, after: SimState) -> bool:
     return holds(when, before, after, rule.since) and (when.fact in MOMENTS or not rule.held)
 
 
-def _held(rule: StandingTrigger, after: SimState) -> bool:
+def _held(rule: StandingTrigger, before: SimState, after: SimState) -> bool:
     """Whether the condition counts as having held; one that comes to hold under a result is due after it."""
     when = rule.trigger.when
+    if when.fact == "standing":
+        return has_stood(before, after)
     lasts = when.fact in SETTINGS or when.no_longer
     return rule.held if lasts and after.world.outcome is not Outcome.RUNNING else is_so(when, after)
 

@@ -213,3 +213,26 @@ async def _with_a_rule() -> Any:
     session = await Service().session(Config(seed=3), paused=True)
     await do(session, EVERY)
     return session
+
+
+@pytest.mark.parametrize("seed", range(4))
+async def test_moves_and_halts_are_noticed_when_they_happen(seed: int) -> None:
+    """The oracle looks only at the cells the ego was in, tick by tick."""
+    service = Service()
+    session = await service.session(Config(seed=seed, vehicles=40, potholes=25))
+    moves = ("left", "right", "lane_change")
+    await do(session, *(rule("move", CAR, move=move) for move in moves), rule("standing", CAR))
+    expected = [0, 0, 0, 0]
+    stood = False
+    for _ in range(150):
+        was = session.run.world
+        service.clock.tick(1)
+        world = session.run.world
+        drove = was.outcome == "running" and was.episode_start == world.episode_start
+        lanes = (world.road.cell(world.av)[0] - was.road.cell(was.av)[0]) * drove
+        stands = drove and world.av == was.av
+        noticed = (lanes < 0, lanes > 0, lanes != 0, stands and not stood)
+        expected = [count + happened for count, happened in zip(expected, noticed, strict=True)]
+        stood = stands
+        assert [each.fired for each in session.run.triggers.standing] == expected
+    assert all(expected), "each of them happened"

@@ -278,12 +278,13 @@ export interface CommandResult {
 
 /** What a rule waits for: one fact, with its figures. */
 export interface Condition {
-  fact: "crash" | "arrival" | "stuck" | "episode" | "every" | "after" | "tick" | "row" | "lane" | "goal" | "near" | "count" | "weather" | "time_of_day";
+  fact: "crash" | "arrival" | "stuck" | "episode" | "move" | "every" | "after" | "tick" | "row" | "lane" | "standing" | "goal" | "near" | "count" | "weather" | "time_of_day";
   ticks?: number | null;
   seconds?: number | null;
   tick?: number | null;
   row?: number | null;
   lane?: "left" | "middle" | "right" | number | null;
+  move?: "left" | "right" | "lane_change" | null;
   kind?: "pothole" | "vehicle" | "barrier" | "pedestrian" | "av" | null;
   closer_than_m?: number | null;
   within_m?: number | null;
