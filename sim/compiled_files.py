@@ -42,8 +42,7 @@ _KEPT_VERSIONS: Final = 3
 def cache_folder() -> Path | None:
     """Where compiled code of exactly these sources is kept; None if nothing can be written."""
     digest = blake2b(version("numba").encode(), digest_size=8)
-    kernels = [path for folder in _KERNELS for path in sorted((_SIM / folder).glob("*.py"))]
-    for source in (*_COMPILED_IN, *kernels):
+    for source in _sources():
         digest.update(source.read_bytes())
     home = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "roadtalk" / "compiled"
     folder = Path(os.environ.get("NUMBA_CACHE_DIR") or home) / digest.hexdigest()
@@ -57,9 +56,28 @@ def cache_folder() -> Path | None:
 
 
 def ready_mark(name: str) -> Path | None:
-    """The file that says that something was compiled on this machine; None where nothing is kept."""
+    """The file that says that something was compiled from these files; None where nothing is kept.
+
+    The compiler keeps code by the path and the time of its source, so that another copy of the same version
+    on this machine, or one that was written anew, compiles again.
+    """
     folder = cache_folder()
-    return None if folder is None else folder / f"{name}-{platform.node() or 'here'}.ready"
+    return None if folder is None else folder / f"{name}-{_copy()}.ready"
+
+
+@cache
+def _copy() -> str:
+    """This copy of the sources on this machine."""
+    digest = blake2b(f"{platform.node()} {_SIM}".encode(), digest_size=8)
+    for source in _sources():
+        stat = source.stat()
+        digest.update(f"{stat.st_mtime} {stat.st_size} ".encode())
+    return digest.hexdigest()
+
+
+def _sources() -> list[Path]:
+    kernels = [path for folder in _KERNELS for path in sorted((_SIM / folder).glob("*.py"))]
+    return [*_COMPILED_IN, *kernels]
 
 
 def _forget_old(folder: Path) -> None:
