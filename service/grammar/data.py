@@ -152,7 +152,6 @@ def _lexicon(folder: Path) -> Lexicon:
     if "planner" in lexicon.concepts:  # one that the language has no words for goes by its name
         unnamed = [name for name in BUILT_IN if ("planner", repr(name)) not in lexicon.typical]
         lexicon.add_section({"planner": {name: f"{name}, {name} planner" for name in unnamed}})
-    lexicon.share_endings()
     return lexicon
 
 

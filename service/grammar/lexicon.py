@@ -1,6 +1,6 @@
 """Words → concepts: a graph of all phrases, and the phrases at a place in a sentence.
 
-The graph is a trie in which equal endings are one node (a DAWG): 230,000 English phrases make 5,500 nodes.
+The graph is a trie in which equal endings are one node (a DAWG); see `phrase_graph` for how it is built.
 A phrase may have several senses ("clear" removes things and is a kind of weather); which one is
 meant is for the frames to find out. A concept written `v.add/ing` is `v.add` in the form `ing`,
 which only counts where that form is in place ("would you mind adding").
@@ -8,12 +8,14 @@ which only counts where that form is in place ("would you mind adding").
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from service.grammar.numbers import Found
-from service.grammar.patterns import DECIMAL, GAP, ID, NUMBER, ORDINAL, Words, expand
+from service.grammar.patterns import DECIMAL, GAP, ID, NUMBER, ORDINAL, Pattern, Words, read_pattern
+from service.grammar.phrase_graph import PhraseGraph
 from service.grammar.tokens import Token
 
 
@@ -93,19 +95,29 @@ class Node:
         return self._meant
 
 
+class _End(NamedTuple):
+    """What a phrase ends in."""
+
+    text: int
+    """the number of the text that writes it"""
+    sense: Sense
+    whole: Words = ()
+    """the whole of a split phrase, of which it is half"""
+
+
 class Lexicon:
     """All phrases of a language."""
 
-    def __init__(self, macros: Mapping[str, tuple[Words, ...]]) -> None:
+    def __init__(self, macros: Mapping[str, Pattern]) -> None:
         self._macros = macros
-        self.root = Node()
+        self._graph = PhraseGraph[Node]()
+        self._ends: list[_End] = []
+        self._texts: list[str] = []
+        self._collisions: list[str] = []
+        self._repeats: list[str] = []
         self.words: set[str] = set()
         self.concepts: dict[str, set[str]] = {}
         """Concept → its forms."""
-        self.collisions: list[str] = []
-        """Phrases with two values of one concept."""
-        self.repeats: list[str] = []
-        """Written phrases that say only what is said already."""
         self.begins: dict[str, set[str]] = {}
         """Concept → the first words of its phrases."""
         self.typical: dict[tuple[str, str], Words] = {}
@@ -124,93 +136,110 @@ class Lexicon:
                     self._add_phrases(entry["say"], Sense(concept, entry["is"], form))
             else:
                 self._add_phrases(content, Sense(concept, None, form))
+        self.__dict__.pop("root", None)
 
     def _add_phrases(self, phrases: str | Sequence[str], sense: Sense) -> None:
         """Add phrases: a list of them, or one string with commas between them."""
-        for pattern in (phrases,) if isinstance(phrases, str) else phrases:
-            self._add_pattern(str(pattern), sense)
+        for text in (phrases,) if isinstance(phrases, str) else phrases:
+            self._add_pattern(str(text), sense)
 
-    def _add_pattern(self, pattern: str, sense: Sense) -> None:
-        phrases = expand(pattern, self._macros)
-        added = 0
-        for words in phrases:
-            self.begins.setdefault(sense.concept, set()).add(words[0])
-            added += self._add_split(words, sense) if GAP in words else self._add(words, sense)
-        if phrases and not added:
-            self.repeats.append(f"{pattern!r} is already among the phrases of {sense.concept}")
+    def _add_pattern(self, text: str, sense: Sense) -> None:
+        pattern = read_pattern(text, self._macros)
+        number = len(self._texts)
+        self._texts.append(text)
+        self.words.update(word for word in pattern.words() if word != GAP)
+        self.begins.setdefault(sense.concept, set()).update(self._graph.first_words(pattern))
+        if not sense.form and (best := (sense.concept, repr(sense.value))) not in self.typical:
+            plain = pattern.without(slots=True, gaps=True)
+            if (first := next(filter(None, plain.phrases()), None)) is not None:
+                self.typical[best] = first
+        if pattern.has_gap():
+            for words in filter(None, pattern.phrases()):
+                if GAP in words:
+                    self._add_split(words, sense, number)
+            pattern = pattern.without(gaps=True)
+        assert self._graph.add(pattern) == len(self._ends)
+        self._ends.append(_End(number, sense))
 
-    def _add_split(self, words: Words, sense: Sense) -> bool:
-        """Add a phrase of two halves; whether it is new."""
+    def _add_split(self, words: Words, sense: Sense, text: int) -> None:
+        """Add a phrase of two halves."""
         cut = words.index(GAP)
         if not 0 < cut < len(words) - 1:
             raise ValueError(f"a phrase of {sense.concept} may have nothing on one side of its gap: {words}")
-        added = False
         for half, half_sense in ((words[:cut], sense), (words[cut + 1 :], Sense(SECOND))):
-            node = self._node(half)
-            if node.split is None:
-                node.split = {}
-            senses = node.split.setdefault(words, [])
-            if half_sense not in senses:
-                senses.append(half_sense)
-                added = True
-        return added
+            assert self._graph.add_words(half) == len(self._ends)
+            self._ends.append(_End(text, half_sense, words))
 
-    def _node(self, words: Words) -> Node:
-        node = self.root
-        for word in words:
-            after = node.next.get(word)
-            if after is None:
-                after = node.next[word] = Node()
-                self.words.add(word)
-            node = after
-        return node
+    @cached_property
+    def root(self) -> Node:
+        """Where all phrases start."""
+        self._collisions, said = [], set[int]()
+        known: dict[int, Any] = {}
 
-    def share_endings(self) -> None:
-        """Make equal parts of the graph one; nothing can be added after this."""
-        senses: dict[int, Any] = {}
+        def make(ends: Sequence[int], phrase: Words) -> Node:
+            node = Node()
+            for number in ends:
+                end = self._ends[number]
+                if self._take(end, node, phrase):
+                    said.add(end.text)
+            return node
 
         def sense_key(sense: Sense) -> Any:
-            known = senses.get(id(sense))
-            if known is None:
-                known = senses[id(sense)] = sense.concept, repr(sense.value), sense.form
-            return known
+            if (key := known.get(id(sense))) is None:
+                key = known[id(sense)] = sense.concept, repr(sense.value), sense.form
+            return key
 
-        shared: dict[Any, Node] = {}
-
-        def unique(node: Node) -> Node:
-            following = node.next
-            for word, after in following.items():
-                following[word] = unique(after)
-            key = (
+        def key_of(node: Node) -> Hashable:
+            return (
                 None if node.senses is None else tuple(map(sense_key, node.senses)),
                 None
                 if node.split is None
                 else tuple((whole, tuple(map(sense_key, each))) for whole, each in node.split.items()),
-                tuple(sorted((word, id(after)) for word, after in following.items())),
             )
-            return shared.setdefault(key, node)
 
-        unique(self.root)
+        def link(node: Node, after: dict[str, Node]) -> None:
+            node.next = after
 
-    def _add(self, words: Words, sense: Sense) -> bool:
-        """Add a phrase; whether it is new."""
-        node = self._node(words)
-        if not sense.form:
-            best = sense.concept, repr(sense.value)
-            if best not in self.typical and not any(word.startswith("{") for word in words):
-                self.typical[best] = words
-        if node.senses is None:
-            node.senses = []
+        root = self._graph.root(make, key_of, link)
+        self._repeats = [
+            f"{self._texts[end.text]!r} is already among the phrases of {end.sense.concept}"
+            for end in self._ends
+            if not end.whole and end.text not in said
+        ]
+        return root
+
+    def _take(self, end: _End, node: Node, phrase: Words) -> bool:
+        """Take what a phrase means into the node it ends at; whether it is new there."""
+        sense = end.sense
+        if end.whole:
+            node.split = {} if node.split is None else node.split
+            senses = node.split.setdefault(end.whole, [])
+            if sense in senses:
+                return False
+            senses.append(sense)
+            return True
+        node.senses = [] if node.senses is None else node.senses
         for other in node.senses:
             if other.concept == sense.concept and other.form == sense.form:
                 if other.value != sense.value:
-                    self.collisions.append(
-                        f"{' '.join(words)!r} is both {other.value!r} and {sense.value!r} of {sense.concept}"
+                    said = " ".join(phrase)
+                    self._collisions.append(
+                        f"{said!r} is both {other.value!r} and {sense.value!r} of {sense.concept}"
                     )
                     return True
                 return False
         node.senses.append(sense)
         return True
+
+    @property
+    def collisions(self) -> Sequence[str]:
+        """Phrases with two values of one concept."""
+        return self._collisions if self.root else ()
+
+    @property
+    def repeats(self) -> Sequence[str]:
+        """Written phrases that say only what is said already."""
+        return self._repeats if self.root else ()
 
     def knows(self, word: str) -> bool:
         """Whether any phrase contains the word."""
