@@ -116,7 +116,7 @@ class RuleReading:
         return distinct(whole) if rules else []
 
     def _of_it_or_after_it(self, rules: Readings, after: Readings) -> Readings:
-        """What stands after a semicolon is done by the rule before it, or now: "every tick add a car; pause"."""
+        """What stands after a semicolon is the rule's, or done now: "every tick add a car; pause"."""
         both = [(*before, *then) for before in rules for then in after]
         return distinct(
             [*both, *(found for before in rules for then in after for found in with_more(before, then))]
@@ -244,7 +244,7 @@ class RuleReading:
         return not begun and len({action.do for action in body}) == 1
 
     def _is_marked(self, at: int, stop: int) -> bool:
-        """Whether the tokens `[at, stop)` stand apart: "turn left twice, every ten ticks" may be twice in all."""
+        """Whether the tokens `[at, stop)` stand apart: "turn left twice, every ten ticks"."""
         return self._follows_mark(at) or (stop < len(self._said.tokens) and self._separates(stop))
 
     def _follows_mark(self, at: int) -> bool:
