@@ -42,7 +42,11 @@ def evaluate(
     text: Annotated[str, typer.Argument(help="What to run, for instance: run 500 episodes with A*")],
     seed: Annotated[
         int | None,
-        typer.Option(min=0, help="Of the first episode. Default: 0; of a scenario that is named, its own."),
+        typer.Option(
+            min=0,
+            help="Of the first episode, and of the road where the sentence says this road. "
+            "Default: 0; of a scenario that is named, its own.",
+        ),
     ] = None,
     processes: Processes = None,
     ray: Ray = None,
@@ -147,20 +151,22 @@ def _read(
     from service.refusals import refusals
     from sim.config import Config
     from sim.evaluate import EvaluationError
+    from sim.state import SimState
 
     words = refusals(language)
     match parsed_actions(text, language):
-        case (Evaluate(road=None) as action,):
-            pass
-        case (Evaluate(),):
-            fail(words.said("no_road_here"))
+        case (Evaluate() as action,):
+            if action.road is not None and seed is None:
+                fail(words.said("no_road_here"))
         case (FindWorst(),):
             fail(words.said("search_here"))
         case _:
             fail(words.said("no_evaluation"))
     asked = replace(action, vary=vary or action.vary, map=axes or action.map)
+    config = Config() if seed is None else replace(Config(), seed=seed)
     try:
-        return evaluation_of(asked, Config(), seed=seed)
+        road = None if asked.road is None else SimState.start(config)  # "this road" is the one of the seed
+        return evaluation_of(asked, config, road, seed)
     except EvaluationError as error:
         fail_refused(error, language, "runs")
 

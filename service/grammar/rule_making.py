@@ -47,6 +47,14 @@ def rules_made(body: tuple[Action, ...], parts: Mapping[str, Any], *, keeps: boo
     )
 
 
+def with_more(rules: tuple[Action, ...], more: tuple[Action, ...]) -> Readings:
+    """Rules of which the last one does more, if it can."""
+    *before, last = dump(rules)
+    if last["do"] != "trigger" or not all(isinstance(action, _RULE_ACTIONS) for action in more):
+        return []
+    return _loaded([*before, last | {"then": [*last["then"], *dump(more)]}])
+
+
 def _goes_on(body: Sequence[Action]) -> bool:
     """Whether a request with an end is done until then: "drive left until …", "add a car until …"."""
     return all(isinstance(action, Drive) for action in body) or all(

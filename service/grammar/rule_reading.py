@@ -12,7 +12,15 @@ from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.parse_types import Refused, Understood
 from service.grammar.paths import SEPARATOR
 from service.grammar.repetition import MAX_REPEATED, counts_of, may_be_repeated, repeated
-from service.grammar.rule_making import Readings, adds_one, distinct, needs_a_kind, one_at_a_time, rules_made
+from service.grammar.rule_making import (
+    Readings,
+    adds_one,
+    distinct,
+    needs_a_kind,
+    one_at_a_time,
+    rules_made,
+    with_more,
+)
 from service.grammar.rule_words import (
     COMMAND,
     ECHO,
@@ -41,6 +49,10 @@ MATCH_STEPS = 20
 _OFTEN = ("every", "episode")
 """Facts beside which a number of times is how often the rule is done."""
 _STOP = "stop"
+_SEMICOLON = ";"
+_THEN = "then"
+_ADDS_TO_CONDITION = frozenset(("and", "or", "but", "except"))
+"""Separators after which a condition goes on: "if it rains and night, pause"."""
 _NONE: Mapping[str, Any] = {}
 
 
@@ -84,6 +96,7 @@ class RuleReading:
             return []
         read: list[Readings] = []
         rules = False
+        ruled = False
         for start, end in sentences:
             if read and (counts := self._echo(start, end)):
                 read[-1] = self._repeated(read[-1], counts)
@@ -92,11 +105,22 @@ class RuleReading:
             self._before = read[-1] if read else self._before
             found = self._with_rules(start, end, MAX_PARTS)
             rules = rules or bool(found)
+            if ruled and not found and self._said.tokens[start - 1].text == _SEMICOLON:
+                read[-1] = self._of_it_or_after_it(read[-1], self._plainly(_Rest(start, end)))
+                continue
+            ruled = bool(found)
             read.append(found or self._plainly(_Rest(start, end)))
         whole: Readings = [()]
         for found in read:
             whole = [(*before, *after) for before in whole for after in found]
         return distinct(whole) if rules else []
+
+    def _of_it_or_after_it(self, rules: Readings, after: Readings) -> Readings:
+        """What stands after a semicolon is the rule's, or done now: "every tick add a car; pause"."""
+        both = [(*before, *then) for before in rules for then in after]
+        return distinct(
+            [*both, *(found for before in rules for then in after for found in with_more(before, then))]
+        )
 
     def _sentences(self) -> Iterator[tuple[int, int]]:
         """The stretches between full stops."""
@@ -155,13 +179,17 @@ class RuleReading:
                 ):
                     continue  # "if it crashes twice" says how often it crashes
                 for stop, value in self._at(part, begin):
+                    if self._goes_on(begin, stop) or (part == UNTIL and self._lasts(begin, stop)):
+                        continue
                     if stop <= (rest.end if rest.gap is None else rest.gap[0]):
                         first = self._joined(stop, rest.end)
                         yield from self._left(rest.without(part, value, start=first))
             for at in range(rest.start + 1 if rest.gap is None else rest.gap[1] + 1, rest.end):
-                if part == TIMES and rest.parts.keys() & {WHEN, ONCE} and not self._follows_mark(at):
-                    continue  # "turn left twice every ten ticks" turns twice each time
                 for stop, value in self._at(part, at):
+                    if part == TIMES and rest.parts.keys() & {WHEN, ONCE} and not self._is_marked(at, stop):
+                        continue  # "turn left twice every ten ticks" turns twice each time
+                    if part == UNTIL and self._lasts(at, stop):
+                        continue
                     if stop in closing and not self._is_of_condition(rest, part, value):
                         yield from self._left(rest.without(part, value, end=at))
 
@@ -175,6 +203,8 @@ class RuleReading:
                 if self._words.stands_apart(self._said, at):
                     continue
                 for stop, value in self._at(part, at):
+                    if part == UNTIL and self._lasts(at, stop):
+                        continue
                     if stop < rest.end and not self._separates(stop):
                         around = rest.without(part, value)
                         yield from self._left(replace(around, gap=(at, stop)))
@@ -183,6 +213,25 @@ class RuleReading:
         """Whether the number of times taken off is part of the condition: "when it crashes twice"."""
         timed = TIMES in rest.parts and rest.end < len(self._said.tokens)
         return part == WHEN and timed and value["fact"] not in _OFTEN and not self._follows_mark(rest.end)
+
+    def _goes_on(self, begin: int, stop: int) -> bool:
+        """Whether a condition that begins a sentence goes on after what was read of it: "if it rains and …".
+
+        "Wait until it rains and add a car" joins two requests.
+        """
+        if stop >= len(self._said.tokens) or self._words.waits(self._said, begin):
+            return False
+        after = {e.sense.value for e in self._lattice.edges[stop] if e.concept == SEPARATOR}
+        return not after.isdisjoint(_ADDS_TO_CONDITION) and _THEN not in after
+
+    def _lasts(self, at: int, stop: int) -> bool:
+        """Whether an end at a token says how long what is before it holds: "if it rains for 10 ticks"."""
+        return self._words.lasts(self._said, at, stop) and any(
+            end == at and value["fact"] != "every"
+            for part in (WHEN, ONCE)
+            for start in range(at)
+            for end, value in self._at(part, start)
+        )
 
     def _separates(self, at: int) -> bool:
         return any(edge.concept == SEPARATOR for edge in self._lattice.edges[at])
@@ -193,6 +242,10 @@ class RuleReading:
             return True
         begun = self._plainly(_Rest(rest.start, rest.gap[0]))
         return not begun and len({action.do for action in body}) == 1
+
+    def _is_marked(self, at: int, stop: int) -> bool:
+        """Whether the tokens `[at, stop)` stand apart: "turn left twice, every ten ticks"."""
+        return self._follows_mark(at) or (stop < len(self._said.tokens) and self._separates(stop))
 
     def _follows_mark(self, at: int) -> bool:
         return any(e.end == at and e.concept == SEPARATOR for e in self._lattice.edges[at - 1])
@@ -336,8 +389,9 @@ class RuleReading:
         """The places from which nothing but words that say nothing leads to the end."""
         places = {end}
         for at in range(end - 1, start, -1):
-            if any(e.end in places and _is_idle(e) for e in self._lattice.edges[at]):
-                places.add(at)
+            idle = (e for e in self._lattice.edges[at] if e.end in places and _is_idle(e))
+            if any(e.concept != SEPARATOR or e.sense.value not in _ADDS_TO_CONDITION for e in idle):
+                places.add(at)  # "on every crash but the first" does not end at "crash"
         return places
 
 

@@ -74,6 +74,10 @@ class RuleWords:
     """how long and how often in no figures: "for a while" """
     asks: _Asks | None = None
     """how questions begin that ask what would be done"""
+    lasting: Choice | None = None
+    """how long something is, where it follows what is so: "for 10 ticks" """
+    waiting: Choice | None = None
+    """what asks to wait for a condition, and so may be joined to the next request by "and" """
     apart: Choice | None = None
     """conditions that may be taken for a part of a request where they stand in its midst"""
 
@@ -100,6 +104,8 @@ class RuleWords:
             frozenset(chain.from_iterable((*spoken, *opened, data.get("counted", "").split()))) - {"{}"},
             patterns.read(data["vague"]) if "vague" in data else None,
             _Asks.of(patterns, data["asks"]) if "asks" in data else None,
+            patterns.read(data["lasting"]) if "lasting" in data else None,
+            patterns.read(data["waiting"]) if "waiting" in data else None,
             patterns.read(data["apart"]) if "apart" in data else None,
         )
 
@@ -111,6 +117,16 @@ class RuleWords:
     def stands_apart(self, said: Sentence, at: int) -> bool:
         """Whether a condition at a token may not stand amid a request: "remove every second cone"."""
         return self.apart is not None and any(self.patterns.matches(self.apart, said, at))
+
+    def lasts(self, said: Sentence, at: int, stop: int) -> bool:
+        """Whether the tokens `[at, stop)` may say how long something is so: "for 10 ticks"."""
+        return self.lasting is not None and any(
+            end == stop for end, _ in self.patterns.matches(self.lasting, said, at)
+        )
+
+    def waits(self, said: Sentence, at: int) -> bool:
+        """Whether a request to wait for something begins at a token."""
+        return self.waiting is not None and any(self.patterns.matches(self.waiting, said, at))
 
     def is_vague(self, said: Sentence) -> bool:
         """Whether something is said that no rule can do as it is said: "for a while"."""

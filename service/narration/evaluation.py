@@ -249,8 +249,9 @@ class EvaluationWords:
     def _arrived(self, planner: str, summary: Json) -> str:
         arrived = summary["planners"][planner]["arrived"]
         form = {0: "none", arrived["of"]: "all"}.get(arrived["count"], "some")
+        # Runs that are all the same are no sample: an interval would say more than one run does.
         return self._say(
-            "arrived",
+            "arrived_alike" if summary["alike"] and form != "some" else "arrived",
             form,
             planner=self.planner(planner),
             runs=self._whole(arrived["of"]),

@@ -13,9 +13,12 @@ from typer.testing import CliRunner
 
 from service.cli.long_runs import with_address
 from service.cli.main import cli
+from service.evaluations.named import state_as_road
+from sim.config import Config
 from sim.evaluate import Evaluation
 from sim.evaluate.run import evaluate
 from sim.evaluate.success_map import cells_of
+from sim.state import SimState
 
 
 def run(*words: object) -> Any:
@@ -102,6 +105,19 @@ def test_a_scenario_is_named_on_the_command_line(tmp_path: Path) -> None:
     assert json.loads(report.read_bytes()) == json.loads(other.stdout)
     unknown = run("evaluate", 'run the scenario "flat earth" 10 times')
     assert (unknown.exit_code, "rush-hour" in unknown.output) == (1, True)
+
+
+def test_this_road_is_that_of_the_seed(tmp_path: Path) -> None:
+    report = tmp_path / "report.json"
+    asked = "run this road 3 times and tell me how often it crashes"
+    unsaid = run("evaluate", asked)
+    assert (unsaid.exit_code, "--seed" in unsaid.output) == (1, True)
+    done = run("evaluate", asked, "--seed", 7, "--processes", 1, "--to", report)
+    assert done.exit_code == 0, done.output
+    config = Config(seed=7)
+    road = state_as_road(SimState.start(config))
+    spec = Evaluation(planners=(config.planner,), episodes=3, config=config, seed=7, world=road)
+    assert json.loads(report.read_bytes())["result"] == json.loads(json.dumps(evaluate(spec)))
 
 
 def test_a_success_map_as_json_is_that_of_python(tmp_path: Path) -> None:

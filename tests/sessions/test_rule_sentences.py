@@ -23,7 +23,7 @@ def read(name: str) -> list[dict[str, Any]]:
 
 
 CASES = read("language/rules.jsonl")
-PROGRAMS = read("programs.jsonl")
+PROGRAMS = read("programs.jsonl") + read("programs_again.jsonl")
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,7 @@ def test_none_means_anything_else(english: Language) -> None:
 
 
 def test_programs_in_two_languages_mean_what_they_say(english: Language) -> None:
-    """Sixty more, said by different people; what is not understood is refused, or asked about."""
+    """Twice sixty more, said by different people; what is not understood is refused, or asked about."""
     languages = {"en": english, "de": Language.load("de")}
     for case in PROGRAMS:
         parsed = languages[case["lang"]].parse(case["text"])
