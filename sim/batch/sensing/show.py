@@ -60,17 +60,29 @@ def show_words(layers, threshold, least, least_mover, columns, rows, ahead, bloc
                 while cell >= start + per_word * columns:
                     word, start = word + 1, start + per_word * columns
                 bit = _ONE << np.uint64(cell - start)
-                _show_cell(layers, threshold, cells, cell, block, word * PLANES * LANES + lane, bit)
+                _show_cell(
+                    layers,
+                    threshold,
+                    cells,
+                    cell,
+                    block,
+                    word * PLANES * LANES + lane,
+                    bit,
+                    least,
+                    least_mover,
+                )
 
 
 @on_given_arrays
-def _show_cell(layers, threshold, cells, cell, block, at, bit):
+def _show_cell(layers, threshold, cells, cell, block, at, bit, least, least_mover):
     """What is shown in one cell; `sim.perceive.kernel.show` says why."""
     standing, likely = -1, 0.0
     for kind in range(_FIXED_KINDS):
-        chance = min(CHANCES[layers[LAYER_OF[kind] * cells + cell] + LIMIT], 1.0)
-        if chance >= threshold and (standing < 0 or chance > likely):
-            standing, likely = kind, chance
+        value = layers[np.uintp(LAYER_OF[kind] * cells + cell)]
+        if value >= least:
+            chance = min(CHANCES[np.uintp(value + LIMIT)], 1.0)
+            if standing < 0 or chance > likely:
+                standing, likely = kind, chance
     if standing >= 0:
         block[at + FIXED_PLANE * LANES] |= bit
         if HOLDS[standing]:
@@ -80,7 +92,10 @@ def _show_cell(layers, threshold, cells, cell, block, at, bit):
     moving, likely, rightward = -1, 0.0, False
     for kind in range(_FIXED_KINDS, KINDS_SEEN):
         there = LAYER_OF[kind] * cells + cell
-        right, left = CHANCES[layers[there] + LIMIT], CHANCES[layers[there + cells] + LIMIT]
+        value, other = layers[np.uintp(there)], layers[np.uintp(there + cells)]
+        if max(value, other) < least_mover:
+            continue
+        right, left = CHANCES[np.uintp(value + LIMIT)], CHANCES[np.uintp(other + LIMIT)]
         if right + left >= threshold:
             chance = min(right + left, 1.0)
             if moving < 0 or chance > likely:

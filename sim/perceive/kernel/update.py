@@ -36,7 +36,6 @@ _BELOW: Final = np.ceil(UNITS * np.log(_LOWEST.view(np.float64)) - 0.5).astype(n
 """By ratio as such a word, less `_FIRST`: the logarithm of the lowest of them, in log odds, rounded."""
 _BORDER: Final = np.exp((_BELOW + 0.5) / UNITS)
 """The ratio from which it is one more; steps of 2⁻⁸ make it at most one more."""
-_STRIDE: Final = 8
 _NEAR: Final = 1e-9
 """Share of a ratio within which sums made in another order may be rounded otherwise."""
 
@@ -47,24 +46,13 @@ def weigh_misses(numbers, layers, tables, hidden, device):
     columns, row, column = numbers[COLUMNS], numbers[ROW], numbers[COLUMN]
     cells, seen = columns * numbers[ROWS], columns * (min(tables.devices[device, 1], row) + 1)
     first, covered = (row + 1) * columns - seen, hidden[hidden.size - seen :]
-    whole = seen // _STRIDE * _STRIDE
     for layer in range(LAYERS):
         own = layers[layer * cells + first : layer * cells + first + seen]
         less = tables.miss[device, column, layer, hidden.size - seen :]
-        # Where nothing can be detected, `miss` is 0. Strides of one length and no branches become SIMD code
-        # without a rest to be done cell by cell.
-        for start in range(0, whole, _STRIDE):
-            for cell in range(start, start + _STRIDE):
-                own[cell] = _missed(own[cell], less[cell], covered[cell])
-        for cell in range(whole, seen):
-            own[cell] = _missed(own[cell], less[cell], covered[cell])
-
-
-@on_given_arrays
-def _missed(value, less, covered):
-    """The log odds after a look without a report, unless the cell is covered."""
-    lower = np.int16(value + np.int16(less * np.int16(np.int16(1) - covered)))
-    return max(np.int16(-LIMIT), min(np.int16(LIMIT), lower))
+        for cell in range(seen):
+            # Where nothing can be detected, `miss` is 0. Without branches this becomes SIMD code.
+            value = np.int16(own[cell] + np.int16(less[cell] * np.int16(np.int16(1) - covered[cell])))
+            own[cell] = max(np.int16(-LIMIT), min(np.int16(LIMIT), value))
 
 
 @on_given_arrays
