@@ -13,6 +13,10 @@ GREEN_BOOK: Final = {
 """AASHTO Green Book (2001 on), design stopping sight distance on level roads: km/h → m, rounded up to 5 m.
 Made from 2.5 s of reaction and a deceleration of 3.4 m/s²."""
 
+NOON_FRICTION: Final = {"clear": (0.65, 0.75), "rain": (0.50, 0.60), "snow": (0.20, 0.25)}
+"""Noon, Engineering Analysis of Vehicular Accidents (CRC Press, 1994): friction of dry asphalt and concrete,
+of both when wet, and of snow, from the lowest to the highest."""
+
 TEFFT_DEATH: Final = {38.8: 0.10, 52.3: 0.25, 65.3: 0.50, 77.2: 0.75, 87.9: 0.90}
 """Tefft, Accident Analysis and Prevention 50 (2013), average risk of death of a person on foot in the United
 States: impact speed in km/h (24.1, 32.5, 40.6, 48.0 and 54.6 mph) → risk."""

@@ -15,6 +15,7 @@ from service.sessions.facts import Asked
 from sim.decide import sense
 from sim.explain.misperception import Misperception, misperception
 from sim.explain.scene import Detection, Scene, describe_percept
+from sim.explain.sensing import reach
 from sim.state import SimState
 from sim.types import PLACEABLE, Kind, Outcome
 
@@ -59,12 +60,16 @@ class Scenes:
         return plain(self._sayings, asked.ask, run, text) | found | misperception_json(wrong)
 
     def _not_as_seen(self, wrong: Misperception, run: SimState) -> list[str]:
-        """What is seen and not there, and what is there and not seen: a few are told."""
+        """What is seen and not there, and what is there and not seen: the nearest are told."""
         told = []
+        column, row = run.world.road.cell(run.world.av)
         for key, things, as_seen in (("phantoms", wrong.phantoms, True), ("missed", wrong.missed, False)):
             if things:
                 naming = Naming(self._sayings, run, as_seen=as_seen)
-                shown = [naming.thing(thing.id) for thing in things[:MAX_TOLD]]
+                near = sorted(
+                    things, key=lambda thing: max(abs(thing.cell[0] - column), abs(thing.cell[1] - row))
+                )
+                shown = [naming.thing(thing.id) for thing in near[:MAX_TOLD]]
                 if len(things) > MAX_TOLD:
                     shown.append(self._sayings.say("scene", "more", count=len(things) - MAX_TOLD))
                 form = ("one" if len(things) == 1 else "many",) if key == "phantoms" else ()
@@ -110,7 +115,7 @@ class _Told:
         if outcome is not Outcome.RUNNING:
             word = self._sayings.say("answers", "outcomes", outcome)
             return f"{self._say('ended', outcome=word)} {self._counts()}"
-        told = [Part(0, self._counts()), Part(0, self._way())]
+        told = [Part(0, part) for part in (self._counts(), self._way()) if part]
         others = [thing for thing in self._scene.seen if thing.ticks is None and thing.rows >= 0]
         if others and len(self._scene.seen) > 1:
             told.append(Part(1, self._say("nearest", thing=self._near(others[0]))))
@@ -213,13 +218,20 @@ class _Told:
         return self._say(key, things=self._sayings.joined(parts), count=self._count(ahead), are=are)
 
     def _way(self) -> str:
-        """What is met straight on."""
+        """What is met straight on; empty where the sensor does not reach the next cell.
+
+        Nothing is called clear that is farther ahead than the sensor detects anything.
+        """
         scene = self._scene
         threats = [self._threat(thing) for thing in scene.threats[:MAX_MET]]
         if threats:
             return self._say("threats", threats=self._sayings.joined(threats))
+        limit = reach(self._run.config)
+        rows = scene.reach if limit is None else min(scene.reach, limit.cells)
         key = "clear_to_goal" if scene.reach == scene.cell[1] else "clear"
-        return self._say(key, metres=self._sayings.number(scene.reach * self._run.config.cell_m))
+        if rows < scene.reach:
+            key = "clear_in_sight"
+        return self._say(key, metres=self._sayings.number(rows * self._run.config.cell_m)) if rows else ""
 
     def _threat(self, thing: Detection) -> str:
         key = "threat_moving" if thing.walks else "threat"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -101,6 +102,32 @@ def test_what_is_seen_is_told_with_what_is_not_there_and_what_is_missed() -> Non
         "I do not detect the pothole right ahead."
     )
     assert told["missed"] == ["pothole-1"]
+
+
+def test_nothing_is_called_clear_that_is_farther_than_the_sensor_reaches() -> None:
+    """Fog and night leave the camera 33 m, which is six cells."""
+    empty = Config(vehicles=0, potholes=0, sensor="camera", weather="fog", time_of_day="night")
+    told = answer(Timeline(empty), about="scene")
+    assert (
+        told["text"] == "I see nothing on the road. Straight on, the next 30 m look clear; I see no farther."
+    )
+    told = answer(Timeline(empty.with_parts(weather="clear", time_of_day="day")), about="scene")
+    assert told["text"] == "I see nothing on the road. Straight on, the next 40 m are clear."
+    told = answer(Timeline(empty.with_parts(sensor_range_m=5.0, cell_m=10.0)), about="scene")
+    assert told["text"] == "I see nothing on the road."
+
+
+def test_of_what_is_missed_the_nearest_is_told_first() -> None:
+    config = Config(seed=4, vehicles=0, potholes=12, sensor="camera", weather="fog", time_of_day="night")
+    timeline = Timeline(config)
+    told = answer(timeline, about="scene")
+    missed = str(told["text"]).partition("I do not detect ")[2]
+    metres = [int(each) for each in re.findall(r"(\d+) m ahead", missed)]
+    assert len(metres) == 3
+    assert metres == sorted(metres)
+    world = timeline.state.world
+    rows = [world.road.cell(world.av)[1] - thing.cell[1] for thing in world.things()]
+    assert metres[0] == 5 * min(rows)
 
 
 @pytest.mark.parametrize("sensor", NAMES)

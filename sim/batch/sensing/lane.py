@@ -39,7 +39,7 @@ from sim.compilation import mix, on_given_arrays
 from sim.perceive.belief import FIXED as FIXED_LAYERS
 from sim.perceive.belief import LAYERS
 from sim.perceive.kernel import places as at
-from sim.perceive.kernel.look import hide, look, place_things
+from sim.perceive.kernel.look import hide, look, may_see, place_things
 from sim.perceive.kernel.predict import predict
 from sim.perceive.kernel.tables import KINDS_SEEN, SuiteTables
 from sim.perceive.kernel.update import SOURCES, weigh_misses, weigh_report
@@ -175,14 +175,17 @@ def _follow(believed, i, columns, rows, memory, here, reacting, left_edge, right
 def scratch_arrays(columns: int, rows: int, tables: SuiteTables) -> tuple[NDArray[Any], ...]:
     """Arrays for `sense_lanes` to write in."""
     cells, devices = columns * rows, len(tables.devices)
-    ratios = np.empty(SOURCES)
+    ratios, found = np.empty(SOURCES), np.zeros((cells + 7) // 8, np.uint64)
     return (
         np.empty(_HEAD + 9 * cells + 1, np.int64),
         np.zeros(3 * ((cells + 7) // 8), np.uint8),
-        np.empty((2, cells), np.int16),
-        np.empty(tables.seen.shape[1] * columns, np.int16),
+        found.view(np.uint8),
+        found,
+        np.zeros(tables.seen.shape[1] * columns, np.int16),
+        np.empty(tables.seen.shape[1], np.uint64),
         np.empty((2 * cells + 1, 2), np.int64),
-        np.empty((devices * (2 * cells + KINDS_SEEN), 4), np.int64),
+        np.empty((2, 2 * cells + 1), np.int64),
+        np.empty((devices * (2 * cells + KINDS_SEEN), at.REPORT), np.int64),
         np.empty((2, SOURCES), np.int64),
         np.empty((2, SOURCES)),
         ratios,
@@ -221,7 +224,9 @@ def sense_lanes(
     cells = columns * rows
     devices = len(tables.devices)
     least_fixed, least_mover = least_shown(threshold)
-    numbers, boards, found, hidden, spots, reports, sources, weights, ratios, words = scratch
+    numbers, boards, found, eights, hidden, dark, spots, in_view, reports, sources, weights, ratios, words = (
+        scratch
+    )
     for lane in chosen:
         block, v, i = state[lane // LANES], lanes[lane // LANES], lane % LANES
         if looked[lane] or (v[OUTCOME * LANES + i] and not ended):
@@ -234,24 +239,26 @@ def sense_lanes(
         key = mix(np.uint64(wholes[lane, SEED]) + _GOLDEN) ^ _SENSOR_KEY
         numbers[at.KEY], numbers[at.EPISODE], numbers[at.TICK] = np.int64(key), wholes[lane, EPISODE], tick
         numbers[at.EGO], numbers[at.HERE], numbers[at.COLUMNS], numbers[at.ROWS] = 0, here, columns, rows
+        row = here // columns
+        numbers[at.ROW], numbers[at.COLUMN] = row, here - row * columns
         numbers[at.TICK_BEFORE], numbers[_AVS], numbers[_FOLLOWED] = kept[TICK_BEFORE], 1, 0
         _list_things(block, i, columns, kept, tick == 0, numbers)
         numbers[_HEAD + 3 * numbers[_THINGS]] = here
         boards[:] = 0
-        _put_right(block, i, columns, rows, boards)
+        _put_right(block, i, columns, rows, row, boards)
         if kept[BEFORE] >= 0:
             reacting = shares[lane, ATTENTIVE] >= 0.5
             _follow(shown, i, columns, rows, kept, here, reacting, left_edge, right_edge, numbers, boards)
-            predict(numbers, boards, own, mixing, least, here // columns + 1)
+            predict(numbers, boards, own, mixing, least, row + 1)
         else:
             for cell in range(len(prior)):
                 own[cell] = prior[cell]
-        hidden[:] = 0
+        dark[:] = 0
         place_things(numbers, spots)
-        hide(numbers, tables, spots, hidden)
-        first = 0
+        hide(numbers, tables, spots, dark, hidden)
+        first, seen = 0, may_see(numbers, spots, hidden, in_view)
         for device in range(devices):
-            last = look(numbers, boards, tables, spots, hidden, device, reports, first)
+            last = look(numbers, boards, tables, spots, hidden, device, in_view, seen, reports, first)
             weigh_misses(numbers, own, tables, hidden, device)
             for report in range(first, last):
                 weigh_report(
@@ -260,16 +267,15 @@ def sense_lanes(
             first = last
         for layer in range(LAYERS):
             own[layer * cells + here] = -LIMIT
-        ahead = here // columns + 1
-        show_words(own, threshold, least_fixed, least_mover, columns, rows, ahead, shown, i, found)
+        show_words(own, threshold, least_fixed, least_mover, columns, rows, row + 1, shown, i, found, eights)
         kept[BEFORE], kept[TICK_BEFORE] = here, tick
 
 
 @on_given_arrays
-def _put_right(block, i, columns, rows, boards):
-    """The movers that head right as bytes."""
+def _put_right(block, i, columns, rows, row, boards):
+    """The movers that head right as bytes, as far as the vehicle's own row."""
     per_word, cells = 64 // columns, columns * rows
-    for word in range(-(-rows // per_word)):
+    for word in range(row // per_word + 1):
         value = block[word * PLANES * LANES + RIGHT * LANES + i]
         _put_board(boards, at.ROAD_RIGHT, (cells + 7) // 8, word, per_word * columns, cells, value)
 

@@ -29,11 +29,11 @@ def least_shown(threshold):
 
 
 @on_given_arrays
-def show_words(layers, threshold, least, least_mover, columns, rows, ahead, block, lane, found):
+def show_words(layers, threshold, least, least_mover, columns, rows, ahead, block, lane, found, eights):
     """Write what is believed in the first `ahead` rows into a lane of a block; nothing is behind them.
 
-    `layers` (layers · cells; int16); `least`, `least_mover`: `least_shown`; `found` (2, cells; int16):
-    scratch.
+    `layers` (layers · cells; int16); `least`, `least_mover`: `least_shown`; `found` (cells, rounded up to
+    eights; uint8) and `eights`, the same as words: scratch, whose end is 0.
     """
     cells, per_word = columns * rows, 64 // columns
     near = ahead * columns
@@ -41,31 +41,48 @@ def show_words(layers, threshold, least, least_mover, columns, rows, ahead, bloc
         at = word * PLANES * LANES + lane
         for plane in range(PLANES):
             block[at + plane * LANES] = _ZERO
-    likeliest, moving = found[0], found[1]
+    near_eights = (near + 7) // 8
+    eights[near_eights - 1] = _ZERO
     for cell in range(near):
-        likeliest[cell], moving[cell] = layers[cell], layers[FIXED * cells + cell]
+        found[cell] = layers[cell] >= least
     for layer in range(1, FIXED):
         for cell in range(near):
-            likeliest[cell] = max(likeliest[cell], layers[layer * cells + cell])
-    for layer in range(FIXED + 1, LAYERS):
+            found[cell] |= layers[layer * cells + cell] >= least
+    for layer in range(FIXED, LAYERS):
         for cell in range(near):
-            moving[cell] = max(moving[cell], layers[layer * cells + cell])
-    for cell in range(near):
-        if likeliest[cell] >= least or moving[cell] >= least_mover:
-            row = cell // columns
-            bit = _ONE << np.uint64(row % per_word * columns + cell % columns)
-            at = row // per_word * PLANES * LANES + lane
-            _show_cell(layers, threshold, cells, cell, block, at, bit)
+            found[cell] |= layers[layer * cells + cell] >= least_mover
+    word, start = 0, 0
+    for eight in range(near_eights):
+        if eights[eight] == _ZERO:  # as most are
+            continue
+        for cell in range(8 * eight, 8 * eight + 8):
+            if found[cell]:
+                while cell >= start + per_word * columns:
+                    word, start = word + 1, start + per_word * columns
+                bit = _ONE << np.uint64(cell - start)
+                _show_cell(
+                    layers,
+                    threshold,
+                    cells,
+                    cell,
+                    block,
+                    word * PLANES * LANES + lane,
+                    bit,
+                    least,
+                    least_mover,
+                )
 
 
 @on_given_arrays
-def _show_cell(layers, threshold, cells, cell, block, at, bit):
+def _show_cell(layers, threshold, cells, cell, block, at, bit, least, least_mover):
     """What is shown in one cell; `sim.perceive.kernel.show` says why."""
     standing, likely = -1, 0.0
     for kind in range(_FIXED_KINDS):
-        chance = min(CHANCES[layers[LAYER_OF[kind] * cells + cell] + LIMIT], 1.0)
-        if chance >= threshold and (standing < 0 or chance > likely):
-            standing, likely = kind, chance
+        value = layers[np.uintp(LAYER_OF[kind] * cells + cell)]
+        if value >= least:
+            chance = min(CHANCES[np.uintp(value + LIMIT)], 1.0)
+            if standing < 0 or chance > likely:
+                standing, likely = kind, chance
     if standing >= 0:
         block[at + FIXED_PLANE * LANES] |= bit
         if HOLDS[standing]:
@@ -75,7 +92,10 @@ def _show_cell(layers, threshold, cells, cell, block, at, bit):
     moving, likely, rightward = -1, 0.0, False
     for kind in range(_FIXED_KINDS, KINDS_SEEN):
         there = LAYER_OF[kind] * cells + cell
-        right, left = CHANCES[layers[there] + LIMIT], CHANCES[layers[there + cells] + LIMIT]
+        value, other = layers[np.uintp(there)], layers[np.uintp(there + cells)]
+        if max(value, other) < least_mover:
+            continue
+        right, left = CHANCES[np.uintp(value + LIMIT)], CHANCES[np.uintp(other + LIMIT)]
         if right + left >= threshold:
             chance = min(right + left, 1.0)
             if moving < 0 or chance > likely:

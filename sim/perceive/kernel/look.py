@@ -10,13 +10,20 @@ from sim.compilation import fraction, on_given_arrays, scaled, word_at
 from sim.perceive.kernel.bits import bit
 from sim.perceive.kernel.places import (
     AVS,
+    COLUMN,
     COLUMNS,
     EGO,
     EPISODE,
     HEAD,
-    HERE,
     KEY,
+    REPORT_CELL,
+    REPORT_COLUMN,
+    REPORT_HEADING,
+    REPORT_KIND,
+    REPORT_ROW,
+    REPORT_THING,
     ROAD_RIGHT,
+    ROW,
     ROWS,
     THINGS,
     TICK,
@@ -32,6 +39,7 @@ _SHARE: Final = np.uint64(0xFFFFFF)
 _HALF: Final = np.uint64(32)
 _TOP: Final = np.uint64(56)
 _ONE: Final = np.uint64(1)
+_ALL: Final = np.uint64(2**64 - 1)
 _PLACES: Final = 4
 """Words that false alarms of a kind may draw (`sim.perceive.look`)."""
 
@@ -69,8 +77,7 @@ def fill_shadows(tables, columns):
 @on_given_arrays
 def place_things(numbers, spots):
     """Write where things and vehicles are, in rows ahead of the vehicle and in columns."""
-    columns, things = np.uint32(numbers[COLUMNS]), numbers[THINGS]
-    row = np.int64(np.uint32(numbers[HERE]) // columns)
+    columns, things, row = np.uint32(numbers[COLUMNS]), numbers[THINGS], numbers[ROW]
     for thing in range(things + numbers[AVS]):
         # Divisions of short words take half the time.
         cell = np.uint32(numbers[HEAD + thing] if thing < things else numbers[HEAD + 2 * things + thing])
@@ -79,60 +86,90 @@ def place_things(numbers, spots):
 
 
 @on_given_arrays
-def hide(numbers, tables, spots, hidden):
-    """Mark what the bodies on the road hide: `sim.perceive.occlusion.hidden`."""
-    columns, here, things = numbers[COLUMNS], numbers[HERE], numbers[THINGS]
-    row, column, furthest = here // columns, here % columns, tables.seen.shape[1] - 1
+def hide(numbers, tables, spots, dark, hidden):
+    """Mark what the bodies on the road hide: `sim.perceive.occlusion.hidden`.
+
+    `dark` (rows ahead; uint64), all 0: is filled with the columns that are hidden, as bits. All of `hidden`
+    that is in front of the vehicle is written.
+    """
+    columns, row, column, things = numbers[COLUMNS], numbers[ROW], numbers[COLUMN], numbers[THINGS]
+    furthest = tables.seen.shape[1] - 1
     rows = min(furthest, row) + 1
     for thing in range(things + numbers[AVS]):
         kind = numbers[HEAD + things + thing] if thing < things else AV_NUMBER
         ahead, across = spots[thing, 0], spots[thing, 1]
-        if tables.halves[kind, 0] == 0 or ahead < 0 or ahead >= rows:
+        if tables.halves[np.uintp(kind), 0] == 0 or ahead < 0 or ahead >= rows:
             continue
         if ahead == 0 and across == column:
             continue
-        place = across - column + columns - 1
+        shadow = tables.shadows[np.uintp(kind), np.uintp(across - column + columns - 1), np.uintp(ahead)]
         for there in range(ahead, rows):
-            first = max(tables.shadows[kind, place, ahead, there, 0] + column, 0)
-            last = min(tables.shadows[kind, place, ahead, there, 1] + column, columns - 1)
-            for other in range(first, last + 1):
-                hidden[(furthest - there) * columns + other] = 1
+            first = max(shadow[np.uintp(there), 0] + column, 0)
+            last = min(shadow[np.uintp(there), 1] + column, columns - 1)
+            if first <= last:
+                dark[np.uintp(there)] |= (_ALL >> np.uint64(63 - last)) & (_ALL << np.uint64(first))
+    for there in range(rows):
+        word, at = dark[there], (furthest - there) * columns
+        for other in range(columns):
+            hidden[np.uintp(at + other)] = np.int16(word >> np.uint64(other) & _ONE)
 
 
 @on_given_arrays
-def look(numbers, boards, tables, spots, hidden, device, reports, count):
-    """Write the reports of a device behind the first `count`; returns how many there are then."""
-    columns, here, things = numbers[COLUMNS], numbers[HERE], numbers[THINGS]
-    row, column = here // columns, here % columns
+def may_see(numbers, spots, hidden, in_view):
+    """Write the places of the things that are not hidden, nor behind or too far for any device; how many."""
+    columns, count = numbers[COLUMNS], 0
+    furthest = hidden.size // columns - 1
+    for thing in range(numbers[THINGS]):
+        ahead, there = spots[thing, 0], spots[thing, 1]
+        near = 0 <= ahead <= furthest
+        at = (furthest - ahead) * columns + there if near else 0
+        in_view[0, np.uintp(count)] = thing
+        # Without branches, which nobody could foresee.
+        count += 1 if near and hidden[np.uintp(at)] == 0 else 0
+    return count
+
+
+@on_given_arrays
+def look(numbers, boards, tables, spots, hidden, device, in_view, seen, reports, count):
+    """Write the reports of a device behind the first `count`; returns how many there are then.
+
+    `in_view`, `seen`: what `may_see` wrote and how many.
+    """
+    columns, things, row, column = numbers[COLUMNS], numbers[THINGS], numbers[ROW], numbers[COLUMN]
     size = (columns * numbers[ROWS] + 7) // 8
     number, reach, wrong = tables.devices[device, 0], tables.devices[device, 1], tables.devices[device, 2]
     key = word_at(np.uint64(numbers[KEY]), numbers[EPISODE])
     key = word_at(word_at(word_at(key, numbers[TICK]), numbers[EGO]), number)
-    furthest, drawn_kind, stream = tables.seen.shape[1] - 1, np.int64(-1), key
-    for thing in range(things):
-        ahead, there = spots[thing, 0], spots[thing, 1]
-        place = there - column + columns - 1
-        if ahead < 0 or ahead > reach or hidden[(furthest - ahead) * columns + there]:
-            continue
-        cell, kind = numbers[HEAD + thing], numbers[HEAD + things + thing]
-        chance = tables.drawn[device, kind, ahead, place]
-        if chance == 0:
-            continue
+    drawn_kind, stream, detected = np.int64(-1), key, 0
+    drawn, words = tables.drawn[device], in_view[1]
+    for place_seen in range(seen):
+        thing = in_view[0, place_seen]
+        kind = numbers[np.uintp(HEAD + things + thing)]
         if kind != drawn_kind:
             drawn_kind, stream = kind, word_at(key, kind)
-        word = word_at(stream, numbers[HEAD + 2 * things + thing])
-        if np.int64(word & _LOW) >= chance:
-            continue
+        word = word_at(stream, numbers[np.uintp(HEAD + 2 * things + thing)])
+        ahead, there = spots[np.uintp(thing), 0], spots[np.uintp(thing), 1]
+        # Beyond the reach of a device nothing is drawn.
+        chance = drawn[np.uintp(kind), np.uintp(ahead), np.uintp(there - column + columns - 1)]
+        reports[np.uintp(count + detected), REPORT_THING] = thing
+        words[np.uintp(detected)] = np.int64(word)
+        detected += 1 if np.int64(word & _LOW) < chance else 0
+    first = max(0, row - reach)
+    for report in range(detected):
+        thing, word = reports[np.uintp(count + report), REPORT_THING], np.uint64(words[report])
+        kind, cell = numbers[np.uintp(HEAD + things + thing)], numbers[np.uintp(HEAD + thing)]
+        ahead, there = spots[np.uintp(thing), 0], spots[np.uintp(thing), 1]
+        place = there - column + columns - 1
         share = np.int64(word >> _HALF & _SHARE) / 0x1000000
         own = row - ahead
         to_row, to_column = own, there
         for shift in range(SHIFTS):
-            share -= tables.shares[device, ahead, place, shift]
+            share -= tables.shares[device, np.uintp(ahead), np.uintp(place), shift]
             if share < 0.0:
-                to_row = own - tables.shifts[device, ahead, place, shift, 0]
-                to_column = there + tables.shifts[device, ahead, place, shift, 1]
+                to_row = own - tables.shifts[device, np.uintp(ahead), np.uintp(place), shift, 0]
+                to_column = there + tables.shifts[device, np.uintp(ahead), np.uintp(place), shift, 1]
                 break
-        outside = to_column < 0 or to_column >= columns or to_row < max(0, row - reach) or to_row > row
+        outside = to_column < 0 or to_column >= columns or to_row < first or to_row > row
         if outside or (to_row == row and to_column == column):
             to_row, to_column = own, there
         heading = np.int64(0)
@@ -140,22 +177,22 @@ def look(numbers, boards, tables, spots, hidden, device, reports, count):
             heading = np.int64(bit(boards, ROAD_RIGHT, size, cell))
             if np.int64(word >> _TOP) < wrong:
                 heading = np.int64(1) - heading
-        count = _add(reports, count, kind, to_row * columns + to_column, heading, thing)
-    return _alarm(numbers, tables, hidden, device, word_at(key, ALARMS), reports, count)
+        _report(reports, count + report, kind, to_row, to_column, columns, heading, thing)
+    return _alarm(numbers, tables, hidden, device, word_at(key, ALARMS), reports, count + detected)
 
 
 @on_given_arrays
-def _add(reports, count, kind, cell, heading, thing):
-    reports[count, 0], reports[count, 1] = kind, cell
-    reports[count, 2], reports[count, 3] = heading, thing
-    return count + 1
+def _report(reports, at, kind, row, column, columns, heading, thing):
+    own = reports[np.uintp(at)]
+    own[REPORT_KIND], own[REPORT_CELL], own[REPORT_HEADING] = kind, row * columns + column, heading
+    own[REPORT_THING], own[REPORT_ROW], own[REPORT_COLUMN] = thing, row, column
 
 
 @on_given_arrays
 def _alarm(numbers, tables, hidden, device, key, reports, count):
     """The false alarms of a device: at most one of each kind."""
-    columns, here = numbers[COLUMNS], numbers[HERE]
-    row, column, reach = here // columns, here % columns, tables.devices[device, 1]
+    columns, row, column = numbers[COLUMNS], numbers[ROW], numbers[COLUMN]
+    reach = tables.devices[device, 1]
     cells = (reach + 1) * columns
     for turn in range(KINDS_SEEN):
         kind = tables.alarm_order[device, turn]
@@ -173,5 +210,6 @@ def _alarm(numbers, tables, hidden, device, key, reports, count):
         heading = np.int64(0)
         if kind >= _FIXED_KINDS:
             heading = np.int64(word_at(key, _PLACES * kind + 2) & _ONE)
-        count = _add(reports, count, kind, cell, heading, -1)
+        _report(reports, count, kind, row - ahead, there, columns, heading, -1)
+        count += 1
     return count

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Final
 
+import numpy as np
+
 from sim.compilation import on_given_arrays
 from sim.perceive.belief import FIXED
 from sim.perceive.kernel.bits import bit
@@ -46,9 +48,10 @@ def predict(numbers, boards, layers, mixing, least, ahead):
                 )
         else:
             for layer in range(2):
+                mixed, start = mixing[2 * place + layer], right + layer * cells
+                own = layers[start : start + ahead * columns]
                 for cell in range(ahead * columns):
-                    there = right + layer * cells + cell
-                    layers[there] = mixing[2 * place + layer, layers[there] + LIMIT]
+                    own[cell] = mixed[np.uintp(own[cell] + LIMIT)]
     for byte in range((ahead * columns + 7) // 8):
         believed = boards[BELIEVED_FIXED * size + byte]
         for cell in range(8 * byte, 8 * byte + 8 if believed else 0):
@@ -69,14 +72,15 @@ def predict(numbers, boards, layers, mixing, least, ahead):
 @on_given_arrays
 def _drift(layers, right, left, columns, mixing, place):
     """One row of one kind of mover one step on and mixed with the prior; movers turn at the edges."""
-    turned_left, turned_right = layers[right + columns - 1], layers[left]
+    rightward, leftward = layers[right : right + columns], layers[left : left + columns]
+    mixed_right, mixed_left = mixing[place], mixing[place + 1]
+    turned_left, turned_right = rightward[columns - 1] + LIMIT, leftward[0] + LIMIT
     for column in range(columns - 1, 0, -1):
-        layers[right + column] = mixing[place, layers[right + column - 1] + LIMIT]
-    layers[right] = mixing[place, 0]
+        rightward[column] = mixed_right[np.uintp(rightward[column - 1] + LIMIT)]
+    rightward[0] = mixed_right[0]
     for column in range(columns - 1):
-        layers[left + column] = mixing[place + 1, layers[left + column + 1] + LIMIT]
-    layers[left + columns - 1] = mixing[place + 1, 0]
+        leftward[column] = mixed_left[np.uintp(leftward[column + 1] + LIMIT)]
+    leftward[columns - 1] = mixed_left[0]
     # What is likelier stays so when it is mixed.
-    there = left + columns - 2
-    layers[there] = max(layers[there], mixing[place + 1, turned_left + LIMIT])
-    layers[right + 1] = max(layers[right + 1], mixing[place, turned_right + LIMIT])
+    leftward[columns - 2] = max(leftward[columns - 2], mixed_left[np.uintp(turned_left)])
+    rightward[1] = max(rightward[1], mixed_right[np.uintp(turned_right)])

@@ -263,6 +263,7 @@ def _call(
             len(world.hazards),
             len(world.avs),
             len(followed[0]) // 3,
+            *divmod(world.avs[ego], road.columns),
             *world.hazards,
             *world.movers,
             *map(_kind_of, names),

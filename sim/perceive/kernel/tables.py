@@ -62,6 +62,8 @@ class SuiteTables(NamedTuple):
     """(device): share of headings read wrong"""
     alarms: NDArray[np.float64]
     """(device, kind): probability of a false alarm in a cell"""
+    alarm_odds: NDArray[np.float64]
+    """(device, kind): odds of a false alarm in a cell, of one heading where things of the kind move"""
     alarm_order: NDArray[np.int64]
     """(device, turn): the kinds in the order in which false alarms are drawn, −1 where there is none"""
     seen: NDArray[np.uint8]
@@ -139,6 +141,7 @@ def suite_tables(
         np.array([[m.spec.number, m.reach, round(256 * m.spec.wrong_heading)] for m in models], np.int64),
         np.array([model.spec.wrong_heading for model in models]),
         np.zeros((count, KINDS_SEEN)),
+        np.zeros((count, KINDS_SEEN)),
         np.full((count, KINDS_SEEN), -1, np.int64),
         np.zeros((count, rows, places), np.uint8),
         np.zeros(grid, np.int64),
@@ -165,6 +168,8 @@ def _fill(tables: SuiteTables, device: int, model: SensorModel) -> None:
         number = NUMBER[kind]
         tables.alarm_order[device, turn] = number
         tables.alarms[device, number] = seen.false_alarm
+        alarm = seen.false_alarm / (2 if kind in MOVERS else 1)
+        tables.alarm_odds[device, number] = alarm / (1.0 - alarm)
         tables.drawn[device, number, :rows] = seen.drawn
         tables.detection[device, number, :rows] = seen.detection
     tables.seen[device] = tables.drawn[device].any(axis=0)

@@ -11,12 +11,16 @@ import numpy as np
 
 from sim.compilation import compiled
 from sim.perceive.belief import LAYERS
-from sim.perceive.kernel.look import fill_shadows, hide, look, place_things
+from sim.perceive.kernel.look import fill_shadows, hide, look, may_see, place_things
 from sim.perceive.kernel.places import (
     AVS,
     COLUMNS,
     HEAD,
     REMEMBERED,
+    REPORT,
+    REPORT_CELL,
+    REPORT_KIND,
+    REPORT_THING,
     REPORTS,
     ROWS,
     SHOWN_FIXED,
@@ -53,13 +57,14 @@ def sense_tick(numbers, boards, before, threshold, mixing, least, tables, layers
     hidden = np.zeros(tables.seen.shape[1] * columns, np.int16)
     spots = np.empty((numbers[THINGS] + numbers[AVS], 2), np.int64)
     place_things(numbers, spots)
-    hide(numbers, tables, spots, hidden)
-    reports = np.empty((count_of_devices * (numbers[THINGS] + KINDS_SEEN), 4), np.int64)
+    hide(numbers, tables, spots, np.zeros(tables.seen.shape[1], np.uint64), hidden)
+    reports = np.empty((count_of_devices * (numbers[THINGS] + KINDS_SEEN), REPORT), np.int64)
+    in_view = np.empty((2, numbers[THINGS]), np.int64)
     sources, weights, ratios = np.empty((2, SOURCES), np.int64), np.empty((2, SOURCES)), np.empty(SOURCES)
     words = ratios.view(np.int64)
-    first = 0
+    first, seen = 0, may_see(numbers, spots, hidden, in_view)
     for device in range(count_of_devices):
-        last = look(numbers, boards, tables, spots, hidden, device, reports, first)
+        last = look(numbers, boards, tables, spots, hidden, device, in_view, seen, reports, first)
         weigh_misses(numbers, layers, tables, hidden, device)
         for report in range(first, last):
             weigh_report(
@@ -74,6 +79,7 @@ def sense_tick(numbers, boards, before, threshold, mixing, least, tables, layers
     shown[REPORTS] = first
     at = SHOWN_HEAD + TRIPLE * (shown[SHOWN_FIXED] + shown[SHOWN_MOVERS])
     for report in range(first):
-        shown[at], shown[at + 1], shown[at + 2] = reports[report, 0], reports[report, 1], reports[report, 3]
+        shown[at], shown[at + 1] = reports[report, REPORT_KIND], reports[report, REPORT_CELL]
+        shown[at + 2] = reports[report, REPORT_THING]
         at += TRIPLE
     return at

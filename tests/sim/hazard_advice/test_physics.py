@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import pytest
 
+from sim.actions import Weather
 from sim.hazard_advice import physics
 from sim.hazard_advice.parameters import GRAVITY
 from tools.published_stopping import (
     GREEN_BOOK,
     HIGHWAY_CODE,
+    NOON_FRICTION,
     ROSEN_SANDER_RATIOS,
     TEFFT_DEATH,
     rss_distance,
 )
+from tools.stopping_by_surface import SPEEDS_KMH, braking
 
 
 @pytest.mark.parametrize("kmh", range(20, 131, 10))
@@ -55,6 +58,13 @@ def test_stopping_is_that_of_the_highway_code(mph: int, metres: tuple[int, int])
     speed = mph * 0.44704
     assert physics.braking_distance(speed, 0.67) == pytest.approx(metres[1], abs=0.8)
     assert physics.stopping_distance(speed, 0.67, 0.67) == pytest.approx(sum(metres), abs=0.8)
+
+
+@pytest.mark.parametrize("weather", NOON_FRICTION)
+@pytest.mark.parametrize("kmh", SPEEDS_KMH)
+def test_braking_is_between_that_of_published_friction(weather: Weather, kmh: int) -> None:
+    ours, shortest, longest = braking(weather, kmh)
+    assert shortest < ours < longest
 
 
 @pytest.mark.parametrize(("speed", "reaction", "friction"), [(3, 0.5, 0.7), (14, 1.0, 0.55), (40, 2.0, 0.22)])
