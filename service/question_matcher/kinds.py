@@ -54,6 +54,14 @@ class QuestionKind:
         canonical = next(fits, None)
         return None if canonical is None else canonical.text.format_map(question.slots)
 
+    def offered(self, question: Question) -> str | None:
+        """The sentence to ask back with: it may leave slots out, but nothing turns it round."""
+        if not self.unless.isdisjoint(question.words):
+            return None
+        fits = [each for each in self.says if each.slots <= question.slots.keys()]
+        most = max(fits, key=lambda each: len(each.marks & question.binding), default=None)
+        return None if most is None else most.text.format_map(question.slots)
+
 
 def read_kinds(folder: Path) -> dict[str, QuestionKind]:
     """The kinds of a language's folder, by name. Raises `ValueError` for a file that is unfit."""

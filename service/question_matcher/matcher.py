@@ -125,16 +125,20 @@ class QuestionMatcher:
     def _decided(self, question: Question, order: Sequence[tuple[float, str]], cost: float) -> Match | None:
         """What the order of the kinds says, the likeliest first; `cost` is taken from their leads.
 
-        A kind that no sentence fits, since it leaves a slot out, is no rival of one that is likelier.
+        A kind that no sentence fits, since it leaves a slot out, is no rival of one that is likelier; it is
+        asked about where it is much the likeliest.
         """
         said = {name: self._kinds[name].sentence(question) for _, name in order}
         rivals = [(score, said[name]) for score, name in order if said[name] or not self._kinds[name].says]
         best, likeliest = rivals[0], order[0][0]
-        if best[1] is None or likeliest - best[0] >= NEAR:
-            return None
-        if best[0] == likeliest and best[0] - rivals[1][0] - cost >= max(LEAST_SURE, self._weights.sure):
-            return Match((best[1],), sure=True)
         floor = next(score for score, name in order if name == NONE_OF_THEM) + LIKELY + cost
+        if best[1] is None or likeliest - best[0] >= NEAR:
+            if likeliest < floor:
+                return None
+            rivals = [(score, said[name] or self._kinds[name].offered(question)) for score, name in order]
+            best = rivals[0]
+        elif best[0] == likeliest and best[0] - rivals[1][0] - cost >= max(LEAST_SURE, self._weights.sure):
+            return Match((best[1],), sure=True)
         near = [sentence for score, sentence in rivals if sentence and score >= max(floor, best[0] - NEAR)]
         return Match(tuple(dict.fromkeys(near))[:MAX_CHOICES], sure=False) if near else None
 
@@ -143,11 +147,12 @@ class QuestionMatcher:
         joined = "|".join(map(re.escape, sorted(self._language.joiners)))
         parts = [part.strip() for part in re.split(rf"[.;!?,]|\b(?:{joined})\b", text)]
         return any(
-            self._does_something(part, alone=at > 0 and " " not in part) for at, part in enumerate(parts)
+            self._does_something(part, alone=at > 0 and self._words.is_a_name(part))
+            for at, part in enumerate(parts)
         )
 
     def _does_something(self, part: str, *, alone: bool) -> bool:
-        """Whether a part is a request; of a word `alone` only one about the clock: "fog" may be a topic."""
+        """Whether a part is a request; of a name `alone` only one about the clock: "fog" may be a topic."""
         if not part:
             return False
         try:

@@ -95,9 +95,17 @@ class SlotWords:
         return any(edge.concept == "dir" and str(edge.sense.value) in aside for edge in lattice.all())
 
     def says_something(self, question: Question) -> bool:
-        """Whether a question has words of its own, beside slots and what stands between them."""
+        """Whether a question has words of its own, beside slots and what stands between them.
+
+        What it names counts as one of them, where another one says what of it is asked.
+        """
         own = [word for word in question.words if word[0] != "<" and word not in self._data["openers"]]
-        return len(own) >= MIN_OWN_WORDS
+        return len(own) >= MIN_OWN_WORDS or (len(own) + 1 >= MIN_OWN_WORDS and bool(own and question.binding))
+
+    def is_a_name(self, text: str) -> bool:
+        """Whether a text is one word, but for articles and the like: "fog", "the night"."""
+        lead = {*self._data["determiners"], *self._data["indefinite"]}
+        return sum(word not in lead for word in text.casefold().split()) <= 1
 
     def asks(self, text: str, question: Question) -> bool:
         """Whether a text has the form of a question, or of a wish to be told."""
