@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final, Literal, get_args
 
-MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance"]
+MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance", "speed"]
 QuestionName = Literal[
     "why",
     "why_not",
@@ -300,7 +300,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
         ("change", "move", "what", "tick", "ticks", "seconds", "count"), runs_episodes=True
     ),
     "next": QuestionTraits(("kind",), runs_episodes=True),
-    "scene": QuestionTraits(("kind", "count")),
+    "scene": QuestionTraits(("kind", "count", "lane")),
     "status": QuestionTraits(),
     "metrics": QuestionTraits(("metric",)),
     "confidence": QuestionTraits(runs_episodes=True),
@@ -332,7 +332,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
-    "sight": QuestionTraits(("what", "kind"), ("what",), runs_episodes=True),
+    "sight": QuestionTraits(("what", "kind", "value"), ("what",), runs_episodes=True),
     "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
 

@@ -26,6 +26,8 @@ SIDES: Final[Mapping[str, Callable[[Detection], bool]]] = {
     "behind": lambda thing: thing.rows < 0,
 }
 """Sides that a question may be about alone, by what it supposes, and what is there."""
+LANES: Final[Mapping[str | None, int]] = {"lane_left": -1, "lane_right": 1, "lane_own": 0}
+"""Lanes that a question may be about alone, by what it supposes: lanes to the right of the ego's."""
 MAX_MET: Final = 2
 """Things told that would be met straight on."""
 
@@ -45,7 +47,12 @@ class Scenes:
         wrong = misperception(run).of(kind)
         counting = asked.supposes == "number"
         side = asked.supposes
-        if side is not None and side in SIDES:
+        lane = _lane(asked)
+        if lane is not None:
+            columns = run.world.road.columns
+            scene = in_lane(scene, lane - _own_lane(run))
+            told = _Told(self._sayings, run, scene).in_lane(lane, columns, kind)
+        elif side is not None and side in SIDES:
             scene = on_side(scene, side)
             told = _Told(self._sayings, run, scene).on_side(side, kind)
         elif asked.ask.count is not None and kind is not None:
@@ -77,6 +84,22 @@ class Scenes:
         if kind is None:
             return told.everything()
         return told.number(kind) if counting else told.kind(kind)
+
+
+def _lane(asked: Asked) -> int | None:
+    """The lane that is asked about, from 1 at the left; of the ego's neighbours it may be off the road."""
+    if asked.supposes in LANES:
+        return _own_lane(asked.timeline.state) + LANES[asked.supposes]
+    return asked.ask.lane
+
+
+def _own_lane(run: SimState) -> int:
+    return run.world.road.cell(run.world.av)[0] + 1
+
+
+def in_lane(scene: Scene, lanes: int) -> Scene:
+    """The scene with what is in one lane alone, `lanes` to the right of the ego's."""
+    return replace(scene, seen=tuple(thing for thing in scene.seen if thing.lanes == lanes))
 
 
 def on_side(scene: Scene, side: str) -> Scene:
@@ -155,6 +178,24 @@ class _Told:
         if toward is not None:
             key = "coming" if coming else "none_coming"
             told.append(Part(1, self._say(key, things=self._near_ones(coming))))
+        return within(told)
+
+    def in_lane(self, lane: int, columns: int, kind: Kind | None) -> str:
+        """What is in one lane: beside the ego, then ahead of it."""
+        if not 1 <= lane <= columns:
+            return self._say("lane_none", lane=lane, columns=columns)
+        own = _own_lane(self._run)
+        which = {own - 1: "left", own: "own", own + 1: "right"}.get(lane, "other")
+        things = self._scene.of(kind)
+        form, noun = ("any", "") if kind is None else ("one", self._noun(kind, 2))
+        beside = [thing for thing in things if thing.rows == 0]
+        ahead = sorted((thing for thing in things if thing.rows > 0), key=lambda thing: thing.rows)
+        told = [Part(0, self._say("lane_name", which, lane=lane))]
+        if lane != own:
+            free = self._say("lane_free", form, things=noun)
+            told.append(Part(0, self._say("lane_taken", things=self._near_ones(beside)) if beside else free))
+        clear = self._say("lane_clear", form, things=noun)
+        told.append(Part(0, self._say("lane_ahead", things=self._near_ones(ahead)) if ahead else clear))
         return within(told)
 
     def _near_ones(self, things: Sequence[Detection]) -> str:

@@ -20,7 +20,10 @@ class Status:
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
         run = asked.timeline.state
-        return plain(self._sayings, asked.ask, run, self._status(run))
+        told = self._status(run)
+        if asked.supposes == "tick":
+            told = self._say("status_tick", tick=run.world.tick)
+        return plain(self._sayings, asked.ask, run, told)
 
     def _status(self, run: SimState) -> str:
         world = run.world
