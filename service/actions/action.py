@@ -134,7 +134,7 @@ class Ask:
     want: WantName | None = None
     part: PartName | None = None
     lane: Annotated[int, Ge(1)] | None = None
-    """the lane in which what is counted was decided, or of which the scene is asked, from 1 at the left"""
+    """the lane in which what is counted was decided, from 1 at the left"""
 
     __pydantic_config__ = STRICT
 

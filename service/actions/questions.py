@@ -49,6 +49,7 @@ OutlookName = Literal[
     "matters",
     "risk",
     "coming",
+    "safest",
     "next_stop",
     "next_change",
 ]
@@ -56,8 +57,8 @@ OutlookName = Literal[
 
 `way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is;
 `free`: which moves meet nothing now; `matters`: what the coming move hangs on; `risk`: how safe it is now;
-`coming`: what happens in the next ticks or seconds; `next_stop`, `next_change`: when the vehicle will next
-stop or change lanes.
+`coming`: what happens in the next ticks or seconds; `safest`: which move is; `next_stop`,
+`next_change`: when the vehicle will next stop or change lanes.
 """
 BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human", "first_seen"]
 """What about a crash is asked.
@@ -300,7 +301,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
         ("change", "move", "what", "tick", "ticks", "seconds", "count"), runs_episodes=True
     ),
     "next": QuestionTraits(("kind",), runs_episodes=True),
-    "scene": QuestionTraits(("kind", "count", "lane")),
+    "scene": QuestionTraits(("kind", "count")),
     "status": QuestionTraits(),
     "metrics": QuestionTraits(("metric",)),
     "confidence": QuestionTraits(runs_episodes=True),
@@ -361,6 +362,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "free": (frozenset(),),
     "matters": (frozenset(),),
     "risk": (frozenset(),),
+    "safest": (frozenset(),),
     "next_stop": (frozenset(),),
     "next_change": (frozenset(),),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
