@@ -62,6 +62,7 @@ from service.actions.steering import (
 from sim.actions import Cancel, Parameter, PlaceableKind, Trigger, Where, WorldAction
 from sim.config import CHOICES
 from sim.planner_names import PlannerName
+from sim.sensor_names import SensorName
 from sim.types import Move
 
 Phrase = Annotated[str, MinLen(1), MaxLen(80)]
@@ -153,6 +154,8 @@ class Ask:
             self._check_counted()
         if self.about == "sight" and (self.kind is None) is (self.what == "detection"):
             raise ValueError("of sensing, detection and nothing else is asked of a kind of things")
+        if self.about == "sight" and self.value is not None and not self._names_a_sensor():
+            raise ValueError("of one sensor, 'weathers' are asked, and it is one that errs")
         supposed = self.what in (*get_args(PolicyName), *get_args(SoonerName))
         if self.about == "what_if" and sum((self.change is not None, self.move is not None, supposed)) != 1:
             raise ValueError("say exactly one of 'change' and 'move', or what is supposed of the drive")
@@ -171,6 +174,9 @@ class Ask:
         _refuse_kinds(
             "it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget, Trigger, Cancel)
         )
+
+    def _names_a_sensor(self) -> bool:
+        return self.what == "weathers" and self.value in get_args(SensorName) and self.value != "perfect"
 
     def _check_counted(self) -> None:
         """Raise `ValueError` where a condition does not belong to what is counted over a drive."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final, Literal, get_args
 
-MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance"]
+MetricName = Literal["crashes", "successes", "success_rate", "steps", "moves", "distance", "speed"]
 QuestionName = Literal[
     "why",
     "why_not",
@@ -49,6 +49,7 @@ OutlookName = Literal[
     "matters",
     "risk",
     "coming",
+    "safest",
     "next_stop",
     "next_change",
 ]
@@ -56,8 +57,8 @@ OutlookName = Literal[
 
 `way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is;
 `free`: which moves meet nothing now; `matters`: what the coming move hangs on; `risk`: how safe it is now;
-`coming`: what happens in the next ticks or seconds; `next_stop`, `next_change`: when the vehicle will next
-stop or change lanes.
+`coming`: what happens in the next ticks or seconds; `safest`: which move is; `next_stop`,
+`next_change`: when the vehicle will next stop or change lanes.
 """
 BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human", "first_seen"]
 """What about a crash is asked.
@@ -332,7 +333,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
-    "sight": QuestionTraits(("what", "kind"), ("what",), runs_episodes=True),
+    "sight": QuestionTraits(("what", "kind", "value"), ("what",), runs_episodes=True),
     "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
 
@@ -361,6 +362,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "free": (frozenset(),),
     "matters": (frozenset(),),
     "risk": (frozenset(),),
+    "safest": (frozenset(),),
     "next_stop": (frozenset(),),
     "next_change": (frozenset(),),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),

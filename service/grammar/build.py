@@ -6,6 +6,7 @@ Templates come from the data: `$thing.count` is a value said, `$where` the place
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -80,6 +81,7 @@ def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
     if any(not _fits(filled, path, values) for path, values in frame.only.items()):
         raise CannotBuild("a value the frame is not for")
     maker = _Maker(filled, parameters)
+    supposed(filled)  # a place that is none is no place to ask about either
     if not frame.per:
         return [made for template in frame.actions for made in maker.actions(template)]
     turns = filled.of(*frame.per)
@@ -90,6 +92,36 @@ def build(filled: Filled, parameters: Parameters) -> list[dict[str, Any]]:
     if len(turns) > 1 and maker.where() is not None:
         raise CannotBuild("one place for several things")
     return [maker.action(template, turn) for turn in turns for template in frame.actions]
+
+
+def supposed(filled: Filled) -> str | None:
+    """What a filled frame takes for granted, with what was said in the place of each "$concept".
+
+    "$where" is the place as JSON. What was not said is left out. Raises `CannotBuild` for what is no place.
+    """
+    template = filled.frame.supposes
+    if template is None or "$" not in template:
+        return template
+    words: list[str] = []
+    for word in template.split():
+        if word == "$where":
+            where = _place_asked_about(filled)
+            words += [json.dumps(where)] if where else []
+        elif word.startswith("$"):
+            words += [str(edge.sense.value) for edge in filled.of(word[1:])[:1]]
+        else:
+            words.append(word)
+    return " ".join(words) or None
+
+
+def _place_asked_about(filled: Filled) -> dict[str, Any]:
+    """The place that was said; of sides all, since what is ahead may be on the left as well."""
+    sides = [str(edge.sense.value) for edge in filled.of("side") if not isinstance(edge.sense.value, dict)]
+    rest = [
+        edge for edge in filled.slots if edge.sense.concept != "side" or isinstance(edge.sense.value, dict)
+    ]
+    where = _Maker(Filled(filled.frame, rest), Parameters({})).where() or {}
+    return where | ({"sides": sorted(set(sides))} if sides else {})
 
 
 def _fits(filled: Filled, path: str, values: Sequence[Any]) -> bool:

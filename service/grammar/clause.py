@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from service.grammar.build import supposed
 from service.grammar.composition import asks
 from service.grammar.fragments import Fragment
 from service.grammar.frames import Filled
@@ -38,7 +39,7 @@ class Clause:
     @property
     def supposes(self) -> str | None:
         """What it takes for granted beyond its actions."""
-        return self.filled.frame.supposes
+        return supposed(self.filled)
 
 
 @dataclass(slots=True)

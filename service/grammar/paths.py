@@ -18,6 +18,8 @@ from service.grammar.work_budget import WorkBudget
 
 ALLOWS = "allows"
 """Concept of phrases that put a form in place: "would you mind" allows `ing`."""
+LATER = "_later"
+"""Ending of a form that such a phrase allows farther on, and not right after itself."""
 
 SPEAKER = "speaker"
 """Concept of phrases that make the speaker the doer; glue, where a frame does not say otherwise."""
@@ -168,18 +170,25 @@ def _forms_in_place(search: _Search) -> bool:
     """Whether each form used is put in place by a phrase on the path, and each such phrase is needed."""
     free = search.frame.forms | search.stretch.moods
     used = {edge.sense.form for edge in search.slots if edge.sense.form} - free
-    only_for = {str(edge.sense.value) for edge in search.glue if edge.sense.concept == ALLOWS}
+    only_for = {
+        str(edge.sense.value).removesuffix(LATER) for edge in search.glue if edge.sense.concept == ALLOWS
+    }
     said = {edge.sense.form for edge in search.slots}
     if not only_for <= said:
         return False
     if not used:
         return True
     spans = {(edge.start, edge.end) for edge in (*search.glue, *search.slots)}
+    begins = {
+        start for start, starting in search.stretch.edges.items() if any(e.sense.form for e in starting)
+    }
     allowed = {
-        str(edge.sense.value)
+        value.removesuffix(LATER)
         for starting in search.stretch.edges.values()
         for edge in starting
         if edge.sense.concept == ALLOWS and (edge.start, edge.end) in spans
+        for value in (str(edge.sense.value),)
+        if not (value.endswith(LATER) and edge.end in begins)
     }
     return used <= allowed
 

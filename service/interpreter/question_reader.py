@@ -10,9 +10,10 @@ from anyio import CapacityLimiter, to_thread
 from service.actions import Ask
 from service.grammar.parse_types import Understood
 from service.grammar.topic import ALONE, Topic
-from service.interpreter.languages import Languages
+from service.interpreter.languages import Language, Languages
 from service.interpreter.question import Asked
 from service.question_matcher.kinds import Situation
+from service.question_matcher.matcher import QuestionMatcher
 from service.refusals import refusals
 from service.sessions.pending import PendingChoice, PendingQuestion
 from sim.state import SimState
@@ -76,7 +77,14 @@ class QuestionReader:
             return None
         last = topic.asked if topic.actions == topic.asked else ()
         match = matcher.follow_up(text, last)
+        words = refusals(code)
         if match is None:
+            shorter = await to_thread.run_sync(
+                self._shortened, language, matcher, text, topic, limiter=self._parsing
+            )
+            if shorter is not None:
+                sentence, parse = shorter
+                return Question(parse, code, "matched", words.said("read_as", sentence=sentence))
             match = await to_thread.run_sync(matcher.match, text, now, limiter=self._parsing)
         if match is None:
             return None
@@ -88,7 +96,6 @@ class QuestionReader:
         ]
         if not questions:
             return None
-        words = refusals(code)
         if match.sure:
             sentence, parse = questions[0]
             return Question(parse, code, "matched", words.said("read_as", sentence=sentence))
@@ -99,6 +106,16 @@ class QuestionReader:
             words.said("may_ask") if len(choices) > 1 else words.said("may_ask_one", sentence=choices[0].text)
         )
         raise Asked(PendingQuestion(text, said, choices, "matched", code))
+
+    def _shortened(
+        self, language: Language, matcher: QuestionMatcher, text: str, topic: Topic
+    ) -> tuple[str, Understood] | None:
+        """The first question that is understood once words are left out of a text."""
+        for each in matcher.shortened(text):
+            parse = language.parse(each, topic)
+            if isinstance(parse, Understood) and _only_asks(parse):
+                return each, parse
+        return None
 
 
 def situations(run: SimState) -> frozenset[Situation]:

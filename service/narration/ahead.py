@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, Final
 
@@ -148,9 +149,11 @@ class Outlooks:
         shut = found.outlook is not None and not found.outlook.open
         return [Part(1, self._say("arrival", "shut"))] if shut else []
 
-    def _way(self, table: str, plan: tuple[Move, ...], state: SimState) -> str:
+    def _way(
+        self, table: str, plan: tuple[Move, ...], state: SimState, key: str = "way", **parts: object
+    ) -> str:
         doing = self._sayings.move(plan[0], "doing")
-        return self._say(table, "way", seconds=self._seconds(len(plan), state), doing=doing)
+        return self._say(table, key, seconds=self._seconds(len(plan), state), doing=doing, **parts)
 
     def _crash(self, asked: Asked) -> tuple[str, Json]:
         found = crash_ahead(asked.timeline)
@@ -158,9 +161,27 @@ class Outlooks:
 
     def _stuck(self, asked: Asked) -> tuple[str, Json]:
         if (over := _ended_stuck(asked.timeline)) is not None:
-            return self._say("stuck", "over"), over
+            return within([Part(0, self._say("stuck", "over")), *self._held_up(asked.timeline)]), over
         found = stuck_ahead(asked.timeline)
         return within(self._stuck_parts(found)), stuck_json(found)
+
+    def _held_up(self, timeline: Timeline) -> list[Part]:
+        """Since when an ego that ended stuck came no nearer to the goal, and whether a way led there then."""
+        earlier = where_stuck(timeline)
+        if earlier is None:
+            return []
+        told = [Part(0, self._say("stuck", "since", tick=earlier.tick))]
+        with suppress(QuestionError):
+            found = stuck_ahead(earlier)
+            shut = found.outlook
+            if shut is not None and not shut.open:
+                who = Naming(self._sayings, found.state, as_seen=False).things(shut.ids)
+                told.append(Part(0, self._say("stuck", "was_late" if shut.late else "was_shut")))
+                told.append(Part(1, self._say("stuck", "without", who=who) if shut.ids else ""))
+            elif found.plan is not None:
+                planner = self._sayings.planner(planner_of(found.state), "with")
+                told.append(Part(0, self._way("stuck", found.plan, found.state, "missed", planner=planner)))
+        return told
 
     def _stuck_parts(self, found: StuckAhead) -> list[Part]:
         shut = found.outlook

@@ -101,7 +101,7 @@ class Answers:
             Choices(sayings): ("choices", "losses", "free", "matters"),
             Rankings(sayings): ("runner_up", "scores"),
             Stretches(sayings): ("waited", "differed", "before_crash"),
-            Soon(sayings): ("risk", "coming"),
+            Soon(sayings): ("risk", "coming", "safest"),
             Moments(sayings): ("riskiest", "similar"),
             Courses(sayings): ("passed", "verdict"),
             DriveCounts(sayings): ("stopped", "lane_changes", "made", "ended", "lanes_used", "tight"),

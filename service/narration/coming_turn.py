@@ -12,7 +12,7 @@ from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.coming_turn import LANE_CHANGES, STOPS, ComingTurn, coming_turn
 from sim.explain.foresight import Foresight
-from sim.types import Mode, Move, kind_of
+from sim.types import Mode, Move, Outcome, kind_of
 
 
 class ComingTurns:
@@ -31,6 +31,9 @@ class ComingTurns:
         except QuestionError as error:
             return plain(self._sayings, ask, state, not_so(self._sayings, error.code, error.facts))
         text = self._text(found, "stop" if stop else "lane")
+        if asked.supposes == "will" and found.known:
+            word = self._sayings.say("ahead", "answer", "disagree" if found.after is None else "agree")
+            text = f"{word}. {text}"
         if state.mode is Mode.MANUAL:
             text = f"{self._sayings.say('ahead', 'by_hand')} {text}"
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | coming_turn_json(found)
@@ -55,6 +58,10 @@ class ComingTurns:
         if found.detour is not None and found.detour.ids:
             a = self._sayings.say("words", "a", kind_of(found.detour.ids[0]))
             told.append(Part(1, self._say("for", a=a)))
+        if found.story.outcome is not Outcome.RUNNING:
+            end = end_told(self._sayings, Foresight(found.state, found.story, None))
+            form = "only" if found.count == 1 else "more"
+            told.append(Part(2, self._say(table, form, count=found.count, end=end)))
         return within([*told, Part(1, chance)])
 
     def _say(self, *keys: str, **parts: object) -> str:

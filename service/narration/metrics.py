@@ -49,6 +49,8 @@ class Figures:
                 return self.moves(metrics)
             case "distance":
                 return self.distance(metrics)
+            case "speed":
+                return self._speed(run)
             case _:
                 return self._all(run, interval)
 
@@ -86,6 +88,16 @@ class Figures:
         steps = run.metrics.steps
         seconds = self._sayings.number(round(steps * run.config.step_seconds, 1), ".10g")
         return self._say("steps", "one" if steps == 1 else "many", count=steps, seconds=seconds)
+
+    def _speed(self, run: SimState) -> str:
+        """The average speed, stops included."""
+        seconds = run.metrics.steps * run.config.step_seconds
+        return self._say(
+            "speed",
+            kmh=self._sayings.number(round(3.6 * run.metrics.distance_m / seconds, 1), ".10g"),
+            metres=round(run.metrics.distance_m),
+            seconds=self._sayings.number(round(seconds, 1), ".10g"),
+        )
 
     def moves(self, metrics: Metrics) -> str:
         """The moves made, and how many are of each kind; of many moves their shares."""

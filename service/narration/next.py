@@ -32,7 +32,12 @@ class Next:
         if asked.ask.kind is not None:
             return self._of_kind.answer(asked)
         way = route_ahead(run)
-        return plain(self._sayings, asked.ask, run, self._text(way)) | way_json(way)
+        text = self._text(way)
+        if way.decisions and (meant := _will(asked.supposes)) is not None:
+            agreed = any(decision.move in meant for decision in way.decisions)
+            word = self._sayings.say("ahead", "answer", "agree" if agreed else "disagree")
+            text = f"{word}. {text}"
+        return plain(self._sayings, asked.ask, run, text) | way_json(way)
 
     def advice(self, run: SimState) -> str:
         """What the planner would do first in the place of a person who drives; else empty."""
@@ -117,6 +122,15 @@ class Next:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("next", *keys, **parts)
+
+
+def _will(supposes: str | None) -> tuple[Move, ...] | None:
+    """The moves that it is asked about whether they are coming: to a side, sideways or diagonally."""
+    word, _, move = (supposes or "").partition(" ")
+    if word != "will" or move not in set(Move):
+        return None
+    diagonal = {Move.LEFT: (Move.FORWARD_LEFT,), Move.RIGHT: (Move.FORWARD_RIGHT,)}
+    return (Move(move), *diagonal.get(Move(move), ()))
 
 
 def _rows_to_go(way: RouteAhead) -> list[int]:

@@ -47,7 +47,10 @@ class Others:
                 return plain(self._sayings, ask, run, self._then(way)) | way_of_mover_json(way)
             if ask.what == "going":
                 way = mover_way(timeline, id)
-                return plain(self._sayings, ask, run, self._going(way)) | way_of_mover_json(way)
+                told = self._going(way)
+                if asked.supposes == "enters":
+                    told = f"{self._enters(way)} {told}"
+                return plain(self._sayings, ask, run, told) | way_of_mover_json(way)
             found = latest_move(timeline, id, ask.move, ask.tick)
         except QuestionError as error:
             return plain(self._sayings, ask, run, self._not_so(error, run))
@@ -149,6 +152,21 @@ class Others:
             told = self._because(way.turn, self._say("going", key, **facts), naming)
         chance = self._say("going", "by_chance") if way.by_chance else ""
         return within([Part(0, capital(told)), Part(1, chance)])
+
+    def _enters(self, way: MoverWay) -> str:
+        """Whether it comes into the lane that the ego is in now, and when; it may be far ahead of it then."""
+        world, config = way.state.world, way.state.config
+        there = world.index_of(way.id)
+        own = world.av % world.road.columns
+        lanes = [own if there is None else there[0] % world.road.columns]
+        for move in way.steps:
+            lanes.append(lanes[-1] + move.offset[0])
+        if lanes[0] == own:
+            return self._say("going", "is_in")
+        ticks = next((tick for tick, lane in enumerate(lanes) if lane == own), None)
+        if ticks is None:
+            return self._say("going", "stays_out", seconds=in_seconds(self._sayings, len(way.steps), config))
+        return self._say("going", "enters", seconds=in_seconds(self._sayings, ticks, config))
 
     def _then(self, way: MoverWay) -> str:
         """Where it is after the ticks that were asked about, seen from where the ego is now."""

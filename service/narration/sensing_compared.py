@@ -31,8 +31,10 @@ class SensingCompared:
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
         ask, state = asked.ask, asked.timeline.state
-        tell = {"care": self._care, "weathers": self._weathers, "sensors": self._sensors}[str(ask.what)]
-        text, facts = tell(state)
+        if ask.what == "weathers":
+            text, facts = self._weathers(state, None if ask.value is None else str(ask.value))
+        else:
+            text, facts = (self._care if ask.what == "care" else self._sensors)(state)
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
 
     def _care(self, state: SimState) -> tuple[str, Json]:
@@ -55,9 +57,12 @@ class SensingCompared:
             told.append(Part(0, self._say("care", "slips", percent=percent)))
         return within(told), {"half_detected_m": now, "half_detected_clear_m": best, "slips": config.slips}
 
-    def _weathers(self, state: SimState) -> tuple[str, Json]:
-        """How far the sensor detects a car by day in each weather, and at night; the worst of them."""
-        config = state.config
+    def _weathers(self, state: SimState, sensor: str | None) -> tuple[str, Json]:
+        """How far a sensor detects a car by day in each weather, and at night; the worst of them.
+
+        `sensor`: None for the session's.
+        """
+        config = state.config if sensor is None else replace(state.config, sensor=sensor)
         if sensor_named(config.sensor).faithful:
             return self._say("weathers", "perfect"), {"half_detected_m": None}
         if config.sensor not in SUITES:
@@ -71,9 +76,9 @@ class SensingCompared:
         found[value_of(self._sayings, "time_of_day", "night")] = (
             half_m(replace(best, time_of_day="night")) or 0.0
         )
-        sensor = value_of(self._sayings, "sensor", config.sensor)
-        worst = [name for name, metres in found.items() if metres == min(found.values())]
-        told = self._say("weathers", "told", sensor=sensor, listed=self._listed(found))
+        name = value_of(self._sayings, "sensor", config.sensor)
+        worst = [each for each, metres in found.items() if metres == min(found.values())]
+        told = self._say("weathers", "told", sensor=name, listed=self._listed(found))
         text = f"{told} {self._say('weathers', 'worst', worst=self._sayings.joined(worst))}"
         return text, {"half_detected_m": found}
 

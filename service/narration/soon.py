@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from service.contract.encode.ahead import safe_move_json
 from service.contract.encode.soon import coming_json, risk_json
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
@@ -14,6 +17,8 @@ from service.narration.nearest import nearest_seen
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
+from sim.explain.safe_move import SafeMove
+from sim.explain.safest_moves import safest_moves, safety
 from sim.explain.soon import ComingTicks, RiskNow, coming_ticks, risk_now
 from sim.types import Mode
 
@@ -43,8 +48,29 @@ class Soon:
             found = risk_now(timeline)
             nearest = nearest_seen(timeline.state)
             return self._risk(found, nearest), risk_json(found, nearest)
+        if asked.ask.what == "safest":
+            moves = safest_moves(timeline)
+            return self._safest(moves), {"safest": [safe_move_json(each) for each in moves]}
         coming = coming_ticks(timeline, asked.ask.ticks or 1)
-        return self._coming(coming), coming_json(coming)
+        return self._coming(coming, crash_first=asked.supposes == "crash"), coming_json(coming)
+
+    def _safest(self, found: Sequence[SafeMove]) -> str:
+        """The safest moves, with how sure that is; then those that would crash."""
+        best = [each for each in found if safety(each) == safety(found[0])]
+        first = best[0]
+        listed = self._moves(best)
+        if not first.safe:
+            told = [Part(0, self._say("safest", "none", moves=listed))]
+        else:
+            told = [Part(0, self._say("safest", "one" if len(best) == 1 else "many", moves=listed))]
+            told.append(Part(1, assurance_told(self._sayings, first.assurance, first.state, safe=True)))
+        bad = [each for each in found if each.then is None and not each.off_road]
+        if bad:
+            told.append(Part(1, self._say("safest", "crash", moves=self._moves(bad))))
+        return within(told)
+
+    def _moves(self, found: Sequence[SafeMove]) -> str:
+        return self._sayings.joined([self._sayings.move(each.move, "doing") for each in found])
 
     def _risk(self, found: RiskNow, nearest: str | None) -> str:
         """The chance of a crash, how sure that is, whether standing is safe, and the nearest thing."""
@@ -69,8 +95,8 @@ class Soon:
             parts.append(Part(2, self._sayings.say("world", "nearest", who=who)))
         return within(parts)
 
-    def _coming(self, found: ComingTicks) -> str:
-        """The moves of the next ticks, then whether anything is hit, with its chance."""
+    def _coming(self, found: ComingTicks, *, crash_first: bool = False) -> str:
+        """The moves of the next ticks, then whether anything is hit, with its chance; or that first."""
         story, config = found.story, found.state.config
         seconds = in_seconds(self._sayings, found.ticks, config)
         key = "one_run" if found.branched else "moves"
@@ -80,7 +106,7 @@ class Soon:
             told.append(Part(0, self._say("crash", "chance" if found.crashes else "no_chance", share=share)))
         else:
             told.append(Part(0, self._ended(found)))
-        return within(told)
+        return within(reversed(told) if crash_first else told)
 
     def _ended(self, found: ComingTicks) -> str:
         """How it ends within these ticks, or that nothing is hit."""

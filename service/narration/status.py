@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from service.narration.answerer import Json, plain
 from service.narration.next import Next
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.state import SimState
 from sim.types import Mode, Outcome
+
+_AFTER: Final = ("arrived",)
+"""What stands before where the ego is, rather than in its place."""
 
 
 class Status:
@@ -20,7 +25,38 @@ class Status:
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`."""
         run = asked.timeline.state
-        return plain(self._sayings, asked.ask, run, self._status(run))
+        told = self._status(run)
+        if asked.supposes in _AFTER:
+            told = f"{self._aspect(asked, asked.supposes)} {told}"
+        elif asked.supposes is not None:
+            told = self._aspect(asked, asked.supposes)
+        return plain(self._sayings, asked.ask, run, told)
+
+    def _aspect(self, asked: Asked, aspect: str) -> str:
+        """One thing alone that was asked for: the tick, the time, the lanes, whether it has arrived."""
+        run = asked.timeline.state
+        world, columns = run.world, run.world.road.columns
+        lane = world.road.cell(world.av)[0] + 1
+        ticks = (world.tick if world.ended is None else world.ended) - world.episode_start
+        facts = {
+            "tick": world.tick,
+            "ticks": ticks,
+            "seconds": self._sayings.number(ticks * run.config.step_seconds),
+            "episode": world.episode,
+            "lane": lane,
+            "columns": columns,
+            "left": lane - 1,
+            "right": columns - lane,
+        }
+        if aspect == "arrived":
+            agreed = world.outcome is Outcome.SUCCESS
+            return self._sayings.say("ahead", "answer", "agree" if agreed else "disagree") + "."
+        form = {
+            "paused": ("yes" if asked.paused else "no",),
+            "running": ("no" if asked.paused else "yes",),
+            "time": ("now" if world.outcome is Outcome.RUNNING else "ended",),
+        }.get(aspect, ())
+        return self._sayings.say("answers", f"status_{aspect}", *form, **facts)
 
     def _status(self, run: SimState) -> str:
         world = run.world

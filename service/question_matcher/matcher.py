@@ -19,6 +19,7 @@ from service.grammar import Language
 from service.grammar.parse_types import Understood
 from service.grammar.topic import ALONE
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
+from service.question_matcher.fillers import Fillers
 from service.question_matcher.follow_ups import FollowUps
 from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, Situation, read_kinds
 from service.question_matcher.slots import Question, SlotWords
@@ -46,6 +47,8 @@ MAX_CHOICES = 3
 MAX_WORDS = 60
 MOST_FOLLOWING = 60
 """Letters of a follow-up."""
+MOST_SHORTENED = 300
+"""Letters of a question that words are left out of."""
 _CLOCK = (Pause, Resume, Reset, Undo)
 
 
@@ -81,12 +84,22 @@ class QuestionMatcher:
     def _follow_ups(self) -> FollowUps:
         return FollowUps(self._language, self._folder)
 
+    @cached_property
+    def _fillers(self) -> Fillers:
+        return Fillers(self._folder)
+
     def follow_up(self, text: str, asked: Sequence[Action]) -> Match | None:
         """What a few words ask after the last question; None where they are no follow-up."""
         if len(text) > MOST_FOLLOWING or (found := self._follow_ups.match(text, asked)) is None:
             return None
         sentences, sure = found
         return Match(sentences, sure)
+
+    def shortened(self, text: str) -> tuple[str, ...]:
+        """A question without what does not change it (see `Fillers`); empty where it holds a request."""
+        if len(text) > MOST_SHORTENED or self._holds_a_request(text):
+            return ()
+        return self._fillers.without(text)
 
     def match(self, text: str, situations: Collection[Situation] = ()) -> Match | None:
         """What a question may stand for in some situations; None where it is like none that has an answer."""

@@ -28,6 +28,8 @@ class ComingTurn:
     move: Move | None
     detour: Detour | None
     """whom it is for"""
+    count: int
+    """how many moves of the sort the run has"""
     chance: bool
     """whether how others react is left to chance, so that the run is one of many"""
 
@@ -47,4 +49,5 @@ def coming_turn(timeline: Timeline, moves: Collection[Move]) -> ComingTurn:
     move = None if after is None else story.path[after]
     tick = None if after is None else state.world.tick + after
     detour = next((each for each in story.detours if each.tick == tick), None)
-    return ComingTurn(state, story, after, move, detour, chance=not state.config.certain)
+    count = sum(each in moves for each in story.path)
+    return ComingTurn(state, story, after, move, detour, count, chance=not state.config.certain)
