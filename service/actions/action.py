@@ -185,7 +185,11 @@ class Ask:
             raise ValueError(f"'{odd[0]}' does not belong to a question about {self.what}")
         if self.want in ("longest", "share") and self.what not in ("stopped", "moving"):
             raise ValueError("only stops and what is between them are long or short")
-        if self.what == "lanes_used" and self.want is not None and (self.want, self.lane) != ("whether", self.lane or 0):
+        if (
+            self.what == "lanes_used"
+            and self.want is not None
+            and (self.want, self.lane) != ("whether", self.lane or 0)
+        ):
             raise ValueError("of one lane it is asked whether it was used")
         if self.what == "closest_call" and self.count is not None and self.kind is not None:
             raise ValueError("say 'count' or 'kind'")

@@ -132,8 +132,8 @@ have made; `before_crash`: what was hit, and the ego, in the last ticks before t
 `needed`: whether a move was needed, the latest that was not straight on by default; `stopped`: how often it
 stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: ticks with one free move or
 none; `made`: how often it made a move; `ended`: how episodes of the session ended; `first_half`,
-`second_half`: of the present drive so far, or of all of it once it has ended; `sighted`: since when a thing is
-detected, or the things of a kind, or all; `overlooked`: what was driven past and never detected;
+`second_half`: of the present drive so far, or of all of it once it has ended; `sighted`: since when a thing
+is detected, or the things of a kind, or all; `overlooked`: what was driven past and never detected;
 `lost_sight`: what was detected ahead and then was not; `noticed`: what is detected at a tick and was not at
 the one before; `shares`: how many moves of each kind were made;
 `moving`: the stretches without a stop.

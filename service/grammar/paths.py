@@ -179,7 +179,9 @@ def _forms_in_place(search: _Search) -> bool:
     if not used:
         return True
     spans = {(edge.start, edge.end) for edge in (*search.glue, *search.slots)}
-    begins = {start for start, starting in search.stretch.edges.items() if any(e.sense.form for e in starting)}
+    begins = {
+        start for start, starting in search.stretch.edges.items() if any(e.sense.form for e in starting)
+    }
     allowed = {
         value.removesuffix(LATER)
         for starting in search.stretch.edges.values()

@@ -96,7 +96,7 @@ class History:
             if kind is not None:
                 return self._say("no_call_with", things=self._sayings.things(kind, 2)), None
             return self._say("no_such_call", "one" if len(calls) == 1 else "many", count=len(calls)), None
-        return self._closest(calls[number - 1], "closest_with" if kind else "nth"), calls[number - 1]
+        return self._closest(calls[number - 1], "as_near"), calls[number - 1]
 
     def _header(self, found: Past) -> str:
         first, last = found.first.world.tick, found.last.world.tick

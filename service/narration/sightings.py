@@ -1,4 +1,4 @@
-"""Answers about detection in the past: "since when have you known about that car?", "what did you overlook?"."""
+"""Answers about past detection: "since when have you known about that car?", "what did you overlook?"."""
 
 from __future__ import annotations
 
@@ -85,7 +85,9 @@ class PastSightings:
             return within([Part(0, end), Part(1, rate)])
         if ask.want in ("first", "whether"):
             return within([Part(0, first + begun), Part(1, rate)])
-        return within([Part(0, rate), Part(0, self._average(seen, timeline)), Part(1, self._faithful(timeline))])
+        return within(
+            [Part(0, rate), Part(0, self._average(seen, timeline)), Part(1, self._faithful(timeline))]
+        )
 
     def _average(self, seen: Sequence[Sighting], timeline: Timeline) -> str:
         ahead = [each.rows for each in seen if each.rows > 0]

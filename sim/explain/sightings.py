@@ -102,7 +102,16 @@ def sightings(timeline: Timeline) -> Sightings:
         raise QuestionError("too_long", ticks=last - first, most=MOST_TICKS)
     found = _looked_at(timeline.between(first, last + 1), first)
     told = (
-        Sighting(id, each.kind, each.first, each.rows, each.cell, tuple(each.lost), each.there_at_first, each.passed)
+        Sighting(
+            id,
+            each.kind,
+            each.first,
+            each.rows,
+            each.cell,
+            tuple(each.lost),
+            each.there_at_first,
+            each.passed,
+        )
         for id, each in found.items()
     )
     return Sightings(first, last, tuple(sorted(told, key=_order)))
