@@ -178,13 +178,16 @@ class Ask:
     def _names_a_sensor(self) -> bool:
         return self.what == "weathers" and self.value in get_args(SensorName) and self.value != "perfect"
 
+    def _is_no_stretch(self) -> bool:
+        return self.what not in ("stopped", "moving", *(("sighted",) if self.want == "share" else ()))
+
     def _check_counted(self) -> None:
         """Raise `ValueError` where a condition does not belong to what is counted over a drive."""
         named = {key for key in _CONDITIONS if getattr(self, key) is not None}
         if odd := sorted(named - COUNTED.get(str(self.what), frozenset())):
             raise ValueError(f"'{odd[0]}' does not belong to a question about {self.what}")
-        if self.want in ("longest", "share") and self.what not in ("stopped", "moving"):
-            raise ValueError("only stops and what is between them are long or short")
+        if self.want in ("longest", "share") and self._is_no_stretch():
+            raise ValueError("only stops and what is between them are long or short, or a share of the time")
         if (
             self.what == "lanes_used"
             and self.want is not None

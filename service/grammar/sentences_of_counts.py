@@ -19,7 +19,7 @@ def is_counted(ask: Ask) -> bool:
         return any(each is not None for each in named) or (
             ask.what == "lane_changes" and ask.kind is not None
         )
-    return ask.what in ("made", "ended")
+    return ask.what in ("made", "ended", "moving")
 
 
 def counted_sentence(words: Mapping[str, Any], ask: Ask, things: str) -> str:
@@ -32,7 +32,8 @@ def counted_sentence(words: Mapping[str, Any], ask: Ask, things: str) -> str:
     event += "_kind" if event == "crashes" and ask.kind else "_move" if ask.move and event != "made" else ""
     wish = str(ask.want or "count")
     if ask.what in ("lanes_used", "closest_call", "shares"):
-        wish = str(ask.what) if ask.lane is None else "lanes_used_in"
+        wish = str(ask.what) if ask.lane is None or ask.what == "shares" else "lanes_used_in"
+        wish = wish if ask.want is None else "lanes_used_whether"
     told = str(said["events"].get(event, "")).format(move=move, things=things)
     rest = "".join(f" {each}" for each in _conditions(said, ask, things))
     return str(said[wish]).format(event=told, rest=rest)

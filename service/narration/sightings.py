@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any, Final
 
@@ -85,9 +86,9 @@ class PastSightings:
             return within([Part(0, end), Part(1, rate)])
         if ask.want in ("first", "whether"):
             return within([Part(0, first + begun), Part(1, rate)])
-        return within(
-            [Part(0, rate), Part(0, self._average(seen, timeline)), Part(1, self._faithful(timeline))]
-        )
+        far = self._average(seen, timeline)
+        told = [rate, far] if ask.want == "share" else [far, rate]
+        return within([Part(0, told[0]), Part(0, told[1]), Part(1, self._faithful(timeline))])
 
     def _average(self, seen: Sequence[Sighting], timeline: Timeline) -> str:
         ahead = [each.rows for each in seen if each.rows > 0]
@@ -133,7 +134,12 @@ class PastSightings:
         if not never:
             text = self._say("overlooked", "none", count=len(passed), **words)
             return within([Part(0, text), Part(1, self._faithful(asked.timeline))])
-        things = self._joined([self._sayings.say("words", "a", each.kind) for each in never])
+        kinds = Counter(each.kind for each in never)
+        counted = [
+            self._say("counted", count=count, things=self._sayings.things(kind, count))
+            for kind, count in kinds.most_common()
+        ]
+        things = self._sayings.joined(counted)
         return self._say("overlooked", "some", count=len(never), total=len(passed), things=things, **words)
 
     def _lost(self, asked: Asked, found: Sightings) -> str:
