@@ -178,13 +178,28 @@ class Ask:
     def _names_a_sensor(self) -> bool:
         return self.what == "weathers" and self.value in get_args(SensorName) and self.value != "perfect"
 
+    def _is_no_stretch(self) -> bool:
+        return self.what not in ("stopped", "moving", *(("sighted",) if self.want == "share" else ()))
+
     def _check_counted(self) -> None:
         """Raise `ValueError` where a condition does not belong to what is counted over a drive."""
         named = {key for key in _CONDITIONS if getattr(self, key) is not None}
         if odd := sorted(named - COUNTED.get(str(self.what), frozenset())):
             raise ValueError(f"'{odd[0]}' does not belong to a question about {self.what}")
-        if self.want in ("longest", "share") and self.what != "stopped":
-            raise ValueError("only stops are long or short")
+        if self.want in ("longest", "share") and self._is_no_stretch():
+            raise ValueError("only stops and what is between them are long or short, or a share of the time")
+        if (
+            self.what == "lanes_used"
+            and self.want is not None
+            and (self.want, self.lane) != ("whether", self.lane or 0)
+        ):
+            raise ValueError("of one lane it is asked whether it was used")
+        if self.what == "closest_call" and self.count is not None and self.kind is not None:
+            raise ValueError("say 'count' or 'kind'")
+        if self.what == "sighted" and self.want == "list":
+            raise ValueError("of what was detected the first or the last is told, or whether")
+        if self.which is not None and (self.what != "sighted" or self.kind is not None):
+            raise ValueError("'which' is of what was detected, and says its kind")
         if self.what == "ended" and self.metric not in ("crashes", "successes"):
             raise ValueError("ends are crashes or successes")
         if self.what == "made" and self.move == Move.STAY:

@@ -116,6 +116,12 @@ HistoryName = Literal[
     "ended",
     "first_half",
     "second_half",
+    "sighted",
+    "overlooked",
+    "lost_sight",
+    "noticed",
+    "shares",
+    "moving",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -127,7 +133,11 @@ have made; `before_crash`: what was hit, and the ego, in the last ticks before t
 `needed`: whether a move was needed, the latest that was not straight on by default; `stopped`: how often it
 stopped, and what for; `lanes_used`: for how long it was in each lane; `tight`: ticks with one free move or
 none; `made`: how often it made a move; `ended`: how episodes of the session ended; `first_half`,
-`second_half`: of the present drive so far, or of all of it once it has ended.
+`second_half`: of the present drive so far, or of all of it once it has ended; `sighted`: since when a thing
+is detected, or the things of a kind, or all; `overlooked`: what was driven past and never detected;
+`lost_sight`: what was detected ahead and then was not; `noticed`: what is detected at a tick and was not at
+the one before; `shares`: how many moves of each kind were made;
+`moving`: the stretches without a stop.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -313,7 +323,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "history": QuestionTraits(
         (
             *("what", "move", "tick", "until", "ticks", "seconds", "count", "kind"),
-            *("want", "part", "lane", "metric", "parameter", "value"),
+            *("want", "part", "lane", "metric", "parameter", "value", "which"),
         ),
         ("what",),
         runs_episodes=True,
@@ -402,8 +412,13 @@ COUNTED: Final[Mapping[str, frozenset[str]]] = {
     "lane_changes": frozenset(("kind", "want", "part", "lane", "parameter", "value")),
     "made": frozenset(("kind", "want", "part", "lane", "parameter", "value")),
     "ended": frozenset(("kind", "want", "part", "lane", "parameter", "value", "metric")),
-    "lanes_used": frozenset(("part", "lane", "parameter", "value")),
+    "moving": frozenset(("want", "part", "lane", "parameter", "value")),
+    "lanes_used": frozenset(("want", "part", "lane", "parameter", "value")),
     "passed": frozenset(("kind",)),
+    "sighted": frozenset(("kind", "want")),
+    "overlooked": frozenset(("kind",)),
+    "closest_call": frozenset(("kind",)),
+    "shares": frozenset(("part", "lane", "parameter", "value")),
 }
 """What is counted over a drive, and the conditions that each takes beside ticks."""
 
@@ -425,7 +440,9 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     **dict.fromkeys(("stopped", "lanes_used", "ended"), _STRETCHES),
     "lane_changes": (*_STRETCHES, *(each | {"move"} for each in _STRETCHES)),
     "made": tuple(each | {"move"} for each in _STRETCHES),
-    **dict.fromkeys(("first_half", "second_half"), (frozenset(),)),
+    **dict.fromkeys(("first_half", "second_half", "sighted", "overlooked", "lost_sight"), (frozenset(),)),
+    "noticed": (frozenset(), frozenset(("tick",))),
+    **dict.fromkeys(("shares", "moving"), _STRETCHES),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

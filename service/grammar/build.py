@@ -251,6 +251,8 @@ class _Maker:
                 return self._one_of_two(name)
             case "which":
                 return self._which(turn)
+            case "which_thing":
+                return self._which(turn, of_any_kind=True)
             case "past":
                 return self._counted()
             case "becomes":
@@ -293,8 +295,11 @@ class _Maker:
         where = {} if thing.where is None else {"where": thing.where}
         return {"kind": thing.kind, **where}
 
-    def _which(self, turn: Edge | None) -> dict[str, Any]:
-        """The road user that is asked about; a car without a place or an id would be the vehicle itself."""
+    def _which(self, turn: Edge | None, *, of_any_kind: bool = False) -> dict[str, Any]:
+        """The road user that is asked about; a car without a place or an id would be the vehicle itself.
+
+        `of_any_kind`: or what stands on the road.
+        """
         edges = [turn] if turn is not None else self._filled.of("thing")
         if len(edges) != 1 or not isinstance(edges[0].sense.value, Amount):
             raise CannotBuild("not one road user")
@@ -302,11 +307,12 @@ class _Maker:
         if amount.ids:
             return {"id": amount.ids[0]}
         kind, where = amount.of, self.where() or {}
-        if Kind(kind).fixed or amount.count not in (None, 1):
+        fixed = Kind(kind).fixed
+        if (fixed and not of_any_kind) or amount.count not in (None, 1):
             raise CannotBuild("what does not move, or several")
         if form in ("that", "nearest") and not where:
             where = {"nearest": True}
-        if not where and (form != "the_one" or Kind(kind) is not Kind.PEDESTRIAN):
+        if not where and (form != "the_one" or not (fixed or Kind(kind) is Kind.PEDESTRIAN)):
             raise CannotBuild("no one in particular")
         return {"kind": kind, **where}
 

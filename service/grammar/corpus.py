@@ -211,8 +211,16 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "history", "what": what}
     for what in ("stopped", "lanes_used", "tight", "first_half", "second_half"):
         yield {"do": "ask", "about": "history", "what": what}
-    for what in ("passed", "stopped"):
+    for what in ("passed", "stopped", "closest_call"):
         yield {"do": "ask", "about": "history", "what": what, "kind": "pedestrian"}
+    for what in ("sighted", "overlooked", "lost_sight", "noticed", "shares"):
+        yield {"do": "ask", "about": "history", "what": what}
+    for want in ("first", "last", "share"):
+        yield {"do": "ask", "about": "history", "what": "sighted", "want": want}
+    for want in ("first", "whether"):
+        yield {"do": "ask", "about": "history", "what": "sighted", "want": want, "kind": "barrier"}
+    yield {"do": "ask", "about": "history", "what": "noticed", "tick": 5}
+    yield {"do": "ask", "about": "history", "what": "closest_call", "count": 2}
     yield {"do": "ask", "about": "history", "what": "since", "seconds": 2.5}
     yield from _counted()
     yield {"do": "ask", "about": "why", "move": "left", "instead": "right"}
@@ -240,6 +248,7 @@ def _counted() -> Iterator[dict[str, Any]]:
     crashes = {"what": "ended", "metric": "crashes"}
     for want in get_args(WantName):
         yield asked | {"what": "stopped", "want": want}
+        yield asked | {"what": "moving", "want": want}
         yield asked | {"what": "stopped", "want": want, "kind": "vehicle", "lane": 2, "tick": 5}
         if want not in ("longest", "share"):
             yield asked | {"what": "lane_changes", "want": want, "move": "left"}
@@ -252,6 +261,8 @@ def _counted() -> Iterator[dict[str, Any]]:
     yield asked | crashes | {"part": "session", "lane": 2}
     yield asked | {"what": "ended", "metric": "successes", "ticks": 100}
     yield asked | {"what": "lanes_used", "lane": 2}
+    yield asked | {"what": "lanes_used", "lane": 2, "want": "whether"}
+    yield asked | {"what": "shares", "part": "second_half"}
     yield asked | {"what": "closest_call", "tick": 5, "until": 20}
 
 

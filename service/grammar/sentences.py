@@ -360,6 +360,8 @@ class Sentences(RuleSentences):
 
     def _history(self, ask: Ask) -> str:
         key = str(ask.what)
+        if ask.which is not None:
+            raise Unsayable("which")
         if is_counted(ask):
             return counted_sentence(
                 self._words, ask, "" if ask.kind is None else self._entry("things", ask.kind)[1]
@@ -370,12 +372,14 @@ class Sentences(RuleSentences):
             key += "_to" if ask.tick is not None else ""
             key += "" if ask.count is None else "_one" if ask.count == 1 else "_count"
         key += "" if ask.move is None else "_move"
-        if ask.what in ("choices", "runner_up", "scores", "needed") and ask.tick is not None:
+        if ask.what in ("choices", "runner_up", "scores", "needed", "noticed") and ask.tick is not None:
             key += "_at"
         if ask.ticks is not None:
             key += "_ticks" if ask.ticks != 1 else "_tick"
         key += "" if ask.seconds is None else "_seconds"
         key += "" if ask.kind is None else "_kind"
+        key += "" if ask.want is None else f"_{ask.want}"
+        key += "_count" if ask.what == "closest_call" and ask.count is not None else ""
         seconds = "" if ask.seconds is None else number(ask.seconds)
         things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
         move = "" if ask.move is None else self._word("asked", ask.move)

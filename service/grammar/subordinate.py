@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, get_args
 
-from service.actions.questions import PolicyName
+from service.actions.questions import MomentName, PolicyName
 from service.actions.table import WhatIf, verbs_where
 from service.grammar.clause import Clause, Divided
 from service.grammar.clauses import SCENARIO
@@ -17,6 +17,7 @@ from service.grammar.lattice import GLUE, NAME, Edge, Lattice
 from service.grammar.lexicon import Sense
 from service.grammar.paths import SEPARATOR
 from service.grammar.sentence_openings import IF, TEACH, THEN_WHAT, WHAT_IF, WITHOUT, Beginnings
+from sim.types import Move
 
 HAD_MOVED = "had_moved"
 STANDS = "stand_ticks"
@@ -195,6 +196,8 @@ def _drive_supposed(lattice: Lattice, start: int, end: int) -> dict[str, Any] | 
     if found is None:
         return None
     asked = {"do": "ask", "about": WHAT_IF, "what": found.sense.value}
+    if found.sense.value in get_args(MomentName):  # instead of that move
+        asked |= {"move": Move.FORWARD.value}
     rest = _past_marks(lattice, found.end, end)
     if rest >= end:
         return asked

@@ -42,6 +42,7 @@ from service.narration.sensing_facts import SensingFacts
 from service.narration.sensors_again import SensorsAgain
 from service.narration.settings import Settings
 from service.narration.sight import Sights
+from service.narration.sightings import PastSightings
 from service.narration.soon import Soon
 from service.narration.status import Help, Status
 from service.narration.stretches import Stretches
@@ -104,7 +105,17 @@ class Answers:
             Soon(sayings): ("risk", "coming", "safest"),
             Moments(sayings): ("riskiest", "similar"),
             Courses(sayings): ("passed", "verdict"),
-            DriveCounts(sayings): ("stopped", "lane_changes", "made", "ended", "lanes_used", "tight"),
+            DriveCounts(sayings): (
+                "stopped",
+                "lane_changes",
+                "made",
+                "ended",
+                "lanes_used",
+                "tight",
+                "shares",
+                "moving",
+            ),
+            PastSightings(sayings): ("sighted", "overlooked", "lost_sight", "noticed"),
             Necessities(sayings): ("needed",),
             ComingTurns(sayings): ("next_stop", "next_change"),
             SensingCompared(sayings): ("care", "weathers", "sensors"),

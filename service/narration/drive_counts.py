@@ -18,7 +18,7 @@ from sim.explain.facts import QuestionError
 from sim.explain.occurrences import Event, Occurrence, Occurrences, Query, Stretch, occurrences
 from sim.explain.tight_moments import TightMoments, tight_moments
 from sim.session.timeline import Timeline
-from sim.types import PLACEABLE, Kind, Outcome
+from sim.types import MOVES, PLACEABLE, Kind, Outcome
 
 MOST_TICKS_TOLD: Final = 6
 """Ticks that are told one by one in a count; the facts have all."""
@@ -31,6 +31,8 @@ _EVENTS: Final = {
     "made": Event.MOVE,
     "ended": Event.END,
     "lanes_used": Event.DRIVE,
+    "shares": Event.MOVE,
+    "moving": Event.GO,
 }
 _OUTCOMES: Final = {None: None, "crashes": Outcome.CRASH, "successes": Outcome.SUCCESS}
 
@@ -67,14 +69,29 @@ class DriveCounts:
         if not found.driven:
             return self._say("none_driven", where=where) if where else self._say("not_begun")
         if ask.what == "lanes_used":
-            return self._lanes(ask, found, timeline, where)
-        narrowed = where or ask.want or ask.move or ask.what in ("made", "ended")
+            return self._lanes(asked, found, where)
+        if ask.what == "shares":
+            return self._shares(found, where)
+        narrowed = where or ask.want or ask.move or ask.what in ("made", "ended", "moving")
         if ask.what == "stopped" and not narrowed:
             return self._stops(found, ask.kind, timeline)
         if ask.what == "lane_changes" and not narrowed and ask.kind is None:
             return self._changes(found, timeline)
         here = capital(where or self._say("where", "session" if ask.what == "ended" else "episode"))
         return within(self._composed(asked, found, here))
+
+    def _shares(self, found: Occurrences, where: str) -> str:
+        """How many moves of each kind; those that nobody counts as a diagonal are to a side."""
+        counts = Counter(each.move for each in found.found if each.move is not None)
+        told = [
+            self._say("made_of", count=counts[move], name=self._sayings.move(move, "name"))
+            for move in MOVES
+            if counts[move]
+        ]
+        here = capital(where or self._say("where", "episode"))
+        total = sum(counts.values())
+        key = "one" if total == 1 else "many"
+        return self._say("shares", key, where=here, count=total, parts=self._sayings.joined(told))
 
     def _composed(self, asked: Asked, found: Occurrences, where: str) -> list[Part]:
         """What is wanted of all that was found, with the conditions it was looked for under."""
@@ -109,7 +126,7 @@ class DriveCounts:
     def _one(self, ask: Ask, one: Occurrence, timeline: Timeline, where: str) -> str:
         """The first, the last or the longest."""
         seconds = self._seconds(one.ticks, timeline)
-        kind = "took" if ask.what == "stopped" else "was"
+        kind = "took" if ask.what in ("stopped", "moving") else "was"
         what = self._events(ask, 1, str(ask.want))
         return self._say("single", kind, where=where, what=what, tick=one.tick, seconds=seconds)
 
@@ -203,8 +220,9 @@ class DriveCounts:
         told.append(self._say("changes", "last", when=when))
         return " ".join(told)
 
-    def _lanes(self, ask: Ask, found: Occurrences, timeline: Timeline, where: str) -> str:
+    def _lanes(self, asked: Asked, found: Occurrences, where: str) -> str:
         """The lane of most ticks, then the others; or how long it was in the one that is named."""
+        ask, timeline = asked.ask, asked.timeline
         seconds = self._seconds(found.driven, timeline)
         counted = Part(0, self._say("lanes", "counted", where=where) if where else "")
         if ask.lane is not None:
@@ -212,6 +230,9 @@ class DriveCounts:
             percent = self._sayings.number(round(100 * ticks / found.driven))
             part = self._seconds(ticks, timeline)
             told = self._say("lanes", "of", lane=ask.lane, percent=percent, part=part, all=seconds)
+            if ask.want == "whether":
+                word = yes_and_no(self._sayings, asked)["yes" if ticks else "no"]
+                told = self._say("whether", answer=word) + told
             return within([Part(0, told), counted])
         (lane, ticks), *others = found.lanes
         alike = [each for each, count in found.lanes if count == ticks]

@@ -12,11 +12,11 @@ from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.sessions.facts import Asked
 from sim.decide import sense
-from sim.explain.closest_call import ClosestCall
+from sim.explain.closest_call import ClosestCall, closest_calls
 from sim.explain.past import MOST_TICKS, Past, past
 from sim.explain.scene import describe_percept
 from sim.session.timeline import Timeline
-from sim.types import Outcome
+from sim.types import Kind, Outcome
 
 MAX_ENDS: Final = 3
 """Ends of episodes that are told one by one."""
@@ -48,6 +48,9 @@ class History:
         elif ask.what == "seen":
             text = self._seen(timeline, first)
             facts |= {"first": first, "last": first}
+        elif ask.what == "closest_call" and (ask.kind, ask.count) != (None, None):
+            text, call = self._of_several(asked, first, last)
+            facts |= {"closest_call": _call_json(call)}
         else:
             found = past(timeline, first, last)
             text = self._text(str(ask.what), found)
@@ -82,6 +85,19 @@ class History:
             told.append(self._closest(found.closest))
         return " ".join(told)
 
+    def _of_several(self, asked: Asked, first: int, last: int) -> tuple[str, ClosestCall | None]:
+        """The closest call with a kind of things, or the second, the third … with another one each."""
+        ask, number = asked.ask, asked.ask.count or 1
+        kind = None if ask.kind is None else Kind(ask.kind)
+        if kind is not None and not kind.moves:
+            return self._say("not_moving", things=self._sayings.things(kind, 2)), None
+        calls = closest_calls(asked.timeline.between(first, last + 1), kind)
+        if number > len(calls):
+            if kind is not None:
+                return self._say("no_call_with", things=self._sayings.things(kind, 2)), None
+            return self._say("no_such_call", "one" if len(calls) == 1 else "many", count=len(calls)), None
+        return self._closest(calls[number - 1], "as_near"), calls[number - 1]
+
     def _header(self, found: Past) -> str:
         first, last = found.first.world.tick, found.last.world.tick
         return self._say("stretch", first=first, last=last, seconds=self._seconds(found))
@@ -102,12 +118,12 @@ class History:
             told.append(self._say("one_more_end" if more == 1 else "more_ends", count=more))
         return told
 
-    def _closest(self, call: ClosestCall) -> str:
+    def _closest(self, call: ClosestCall, key: str | None = None) -> str:
         after = call.before.world.episode_tick
         seconds = in_seconds(self._sayings, after, call.before.config)
         soon = call.ttc_s is not None and call.ttc_s <= TOLD_TTC_S
         return self._say(
-            "closest_soon" if soon else "closest",
+            key or ("closest_soon" if soon else "closest"),
             when=self._say("when", "later" if after else "start", after=seconds),
             who=Naming(self._sayings, call.before).thing(call.id),
             metres=self._sayings.number(round(call.gap_m, 1 if call.gap_m >= 1 else 2)),
@@ -163,7 +179,11 @@ def _json(found: Past) -> Json:
         "ends": [{"tick": tick, "outcome": outcome} for tick, outcome in found.ends],
         "roads": found.roads,
         "changes_said": found.changes,
-        "closest_call": None
-        if call is None
-        else {"tick": call.tick, "id": call.id, "gap_m": call.gap_m, "ttc_s": call.ttc_s},
+        "closest_call": _call_json(call),
     }
+
+
+def _call_json(call: ClosestCall | None) -> Json | None:
+    if call is None:
+        return None
+    return {"tick": call.tick, "id": call.id, "gap_m": call.gap_m, "ttc_s": call.ttc_s}

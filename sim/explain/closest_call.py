@@ -45,15 +45,22 @@ class ClosestCall:
 
 def closest_call(states: Iterable[SimState]) -> ClosestCall | None:
     """The closest call of the first ego in states one tick apart, the earliest of equals; None if none."""
-    least: ClosestCall | None = None
+    return next(iter(closest_calls(states)), None)
+
+
+def closest_calls(states: Iterable[SimState], kind: Kind | None = None) -> tuple[ClosestCall, ...]:
+    """The closest call with each mover, of a kind or of any: the closest first, of equals the earliest."""
+    least: dict[str, ClosestCall] = {}
     for before, after in pairwise(states):
         for id, own, other in encounters(before.world, after.world):
+            if kind not in (None, kind_of(id)):
+                continue
             gap_m = round(least_gap(own, other) * before.config.cell_m, 6)
-            if gap_m > 0 and (least is None or gap_m < least.gap_m):
+            if gap_m > 0 and (id not in least or gap_m < least[id].gap_m):
                 ticks = ticks_to_contact(own, other)
                 ttc_s = None if ticks is None else round(ticks * before.config.step_seconds, 6)
-                least = ClosestCall(before, id, gap_m, ttc_s)
-    return least
+                least[id] = ClosestCall(before, id, gap_m, ttc_s)
+    return tuple(sorted(least.values(), key=lambda call: (call.gap_m, call.tick)))
 
 
 def encounters(before: World, after: World) -> Iterator[tuple[str, Path, Path]]:

@@ -30,6 +30,8 @@ class Event(StrEnum):
 
     STOP = "stop"
     """ticks in a row in which a wait was decided"""
+    GO = "go"
+    """ticks in a row in which no wait was decided"""
     LANE_CHANGE = "lane_change"
     """a move that led into another lane"""
     MOVE = "move"
@@ -206,7 +208,7 @@ def _groups(timeline: Timeline, steps: Sequence[Step], query: Query) -> list[tup
             before.world.tick,
             before.world.episode,
         )
-        if goes_on and query.event is Event.STOP:
+        if goes_on and query.event in (Event.STOP, Event.GO):
             groups[-1][1].append(before)
         else:
             groups.append((move, [before]))
@@ -214,9 +216,10 @@ def _groups(timeline: Timeline, steps: Sequence[Step], query: Query) -> list[tup
 
 
 def _is_meant(timeline: Timeline, before: SimState, after: SimState, move: Move, query: Query) -> bool:
-    if query.event is Event.STOP:  # a step that is lost on snow is no wait
+    if query.event in (Event.STOP, Event.GO):  # a step that is lost on snow is no wait
         decision = timeline.decided(before) if move is Move.STAY else None
-        return decision is not None and decision.move is Move.STAY
+        waits = decision is not None and decision.move is Move.STAY
+        return waits is (query.event is Event.STOP)
     if query.move is not None and move not in SAID_OF.get(query.move, (query.move,)):
         return False
     return query.event is Event.MOVE or _lane(before) != _lane(after)

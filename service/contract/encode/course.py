@@ -48,18 +48,25 @@ def _occurrence_json(each: Occurrence, what: str) -> Json:
     told: Json = {"tick": each.tick}
     if what == "lane_changes":
         told |= {"side": "left" if each.left else "right", "diagonal": each.diagonal}
-    if what == "stopped":
+    if what in ("stopped", "moving"):
         told["ticks"] = each.ticks
     if what == "ended":
         told["outcome"] = each.before.world.outcome
-    if what == "made":
+    if what in ("made", "shares"):
         told["move"] = each.move
     if what != "lane_changes" or each.ids is not None:
         told["ids"] = None if each.ids is None else list(each.ids)
     return told
 
 
-_NAMES = {"stopped": "stops", "lane_changes": "lane_changes", "made": "moves", "ended": "ends"}
+_NAMES = {
+    "stopped": "stops",
+    "lane_changes": "lane_changes",
+    "made": "moves",
+    "shares": "moves",
+    "moving": "stretches",
+    "ended": "ends",
+}
 """By what is asked, the name of the list of what was found."""
 
 
