@@ -45,6 +45,7 @@ _MADE_OF = {
     "second": frozenset(("meant",)),
     "past": frozenset(("thing",)),
     "which": _PLACE | {"thing"},
+    "which_thing": _PLACE | {"thing"},
     "steps_or_one": frozenset(("steps",)),
     "less": frozenset(("columns", "rows")),
 }
