@@ -108,10 +108,14 @@ def supposed(filled: Filled) -> str | None:
             where = _place_asked_about(filled)
             words += [json.dumps(where)] if where else []
         elif word.startswith("$"):
-            words += [str(edge.sense.value) for edge in filled.of(word[1:])[:1]]
+            words += [_said(edge.sense.value) for edge in filled.of(word[1:])[:1]]
         else:
             words.append(word)
     return " ".join(words) or None
+
+
+def _said(value: Any) -> str:
+    return json.dumps(value) if isinstance(value, dict) else str(value)
 
 
 def _place_asked_about(filled: Filled) -> dict[str, Any]:

@@ -31,9 +31,6 @@ class ComingTurns:
         except QuestionError as error:
             return plain(self._sayings, ask, state, not_so(self._sayings, error.code, error.facts))
         text = self._text(found, "stop" if stop else "lane")
-        if asked.supposes == "will" and found.known:
-            word = self._sayings.say("ahead", "answer", "disagree" if found.after is None else "agree")
-            text = f"{word}. {text}"
         if state.mode is Mode.MANUAL:
             text = f"{self._sayings.say('ahead', 'by_hand')} {text}"
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | coming_turn_json(found)
