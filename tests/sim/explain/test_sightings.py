@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from sim.config import Config
@@ -17,6 +19,7 @@ SENSORS = (("camera", "fog", "night"), ("fusion", "rain", "day"), ("perfect", "c
 
 
 def driven(seed: int, sensor: str = "perfect", weather: str = "clear", light: str = "day") -> Timeline:
+    conditions: dict[str, Any] = {"weather": weather, "time_of_day": light}
     config = Config(
         columns=6,
         rows=18,
@@ -26,8 +29,7 @@ def driven(seed: int, sensor: str = "perfect", weather: str = "clear", light: st
         barriers=3,
         seed=seed,
         sensor=sensor,
-        weather=weather,
-        time_of_day=light,
+        **conditions,
     )
     timeline = Timeline(config)
     for _ in range(16):
