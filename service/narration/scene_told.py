@@ -58,7 +58,7 @@ class SceneTold:
         agreed = not self._scene.threats if asked == "clear" else bool(seen)
         word = self._sayings.say("ahead", "answer", "agree" if agreed else "disagree")
         if self._run.world.outcome is Outcome.RUNNING and asked == "clear":
-            return f"{word}. {self._way()} {self._counts()}"
+            return " ".join(filter(None, [f"{word}.", self._way(), self._counts()]))
         return f"{word}. {self.everything()}"
 
     def kind(self, kind: Kind) -> str:
@@ -166,13 +166,13 @@ class SceneTold:
         scene = self._scene
         threats = [self._threat(thing) for thing in scene.threats[:MAX_MET]]
         if threats:
-            return self._say("threats", threats=self._sayings.joined(threats))
+            return self.say("threats", threats=self._sayings.joined(threats))
         limit = reach(self._run.config)
         rows = scene.reach if limit is None else min(scene.reach, limit.cells)
         key = "clear_to_goal" if scene.reach == scene.cell[1] else "clear"
         if rows < scene.reach:
             key = "clear_in_sight"
-        return self._say(key, metres=self._sayings.number(rows * self._run.config.cell_m)) if rows else ""
+        return self.say(key, metres=self._sayings.number(rows * self._run.config.cell_m)) if rows else ""
 
     def _threat(self, thing: Detection) -> str:
         key = "threat_moving" if thing.walks else "threat"
