@@ -35,6 +35,7 @@ STEERING = ("pause", "resume", "reset")
 
 _COUNTING = ("add", "set_count")
 SCENARIO = "scenario"
+PREFER = "prefer"
 
 
 class Divider:
@@ -271,11 +272,16 @@ class Divider:
     def _hangs_on_question(self, before: Clause, clause: Clause, part: Fragment) -> bool:
         """Whether a part without a verb would be done that may belong to the question before it.
 
-        "Would you have crashed with lidar and a pothole" supposes both, and asks for none of them.
+        "Would you have crashed with lidar and a pothole" supposes both, and asks for none of them; so does
+        "what is the safest move, and the fastest?": one word for a style asks on.
         """
-        if part.after != AND or not asks(before.actions) or asks(clause.actions) or not clause.actions:
+        if not asks(before.actions) or asks(clause.actions) or not clause.actions:
             return False
-        return self._composition.verb_of_its_own(part) is None
+        if all(action["do"] == PREFER for action in clause.actions) and part.after in (AND, PAUSE):
+            said = self._lattice.between(part.start, part.end)
+            alone = all(edge.end - edge.start == 1 for edge in clause.filled.slots)
+            return alone and not any(edge.concept.startswith(VERB) for edge in said)
+        return part.after == AND and self._composition.verb_of_its_own(part) is None
 
     def _begins_request(self, parts: Sequence[Fragment], at: int) -> bool:
         """Whether a part only begins the sentence that it stands in: "10 metres ahead, add a cone"."""
