@@ -125,6 +125,8 @@ def _place_asked_about(filled: Filled) -> dict[str, Any]:
         edge for edge in filled.slots if edge.sense.concept != "side" or isinstance(edge.sense.value, dict)
     ]
     where = _Maker(Filled(filled.frame, rest), Parameters({})).where() or {}
+    if where.keys() & {"of", "id"}:
+        raise CannotBuild("a place seen from another thing, of which nothing is told")
     return where | ({"sides": sorted(set(sides))} if sides else {})
 
 
