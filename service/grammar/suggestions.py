@@ -179,12 +179,22 @@ class Suggestions:
         What is left of the sentence without its `gap` comes first, unless something may be lost by doing it;
         all sayings are of its intents.
         """
-        from rapidfuzz import fuzz  # needed at the first refusal, not before
-
         text = text.lower()[:200]
-        telling = self._telling(meanings)
+        told = self._telling(meanings)
         first = () if gap is None or harmless or not self._may_offer(gap) else (gap.rest,)
         intents = None if gap is None else {_intent(action) for action in gap.actions}
+        # "Why is" alone, as in "why is radar worse", must not hide that "why" asks for a reason.
+        scored = self._scored(text, _longest(told), intents, harmless=harmless) or self._scored(
+            text, [telling for _, telling in told], intents, harmless=harmless
+        )
+        return tuple(dict.fromkeys((*first, *(text for _, text in scored))))[:HOW_MANY]
+
+    def _scored(
+        self, text: str, telling: Sequence[_Telling], intents: set[str] | None, *, harmless: bool
+    ) -> list[tuple[float, str]]:
+        """The sayings that may be offered with their scores, the surest first."""
+        from rapidfuzz import fuzz  # needed at the first refusal, not before
+
         scored: list[tuple[float, str]] = []
         needing = reduce(or_, (each.needing for each in telling), 0)
         for saying in self._sayings if telling else ():
@@ -199,7 +209,7 @@ class Suggestions:
                 likeness = fuzz.token_set_ratio(text, saying.lowered) / 100
                 scored.append((-score - _LIKENESS * likeness, saying.text))
         scored.sort()
-        return tuple(dict.fromkeys((*first, *(text for _, text in scored))))[:HOW_MANY]
+        return scored
 
     def _may_offer(self, gap: Gap) -> bool:
         return gap.whole and all(self._offered(action) and not _loses(action) for action in gap.actions)
@@ -208,8 +218,8 @@ class Suggestions:
         """What a stretch may mean: values also as some value, and nouns as some value of theirs."""
         return meanings.all | {(self._nouns.get(name, name), "") for name, _ in meanings.all}
 
-    def _telling(self, meanings: Sequence[Meanings]) -> list[_Telling]:
-        """The longest stretches that tell of an intent."""
+    def _telling(self, meanings: Sequence[Meanings]) -> list[tuple[Meanings, _Telling]]:
+        """The stretches that tell of an intent."""
         found: list[tuple[Meanings, _Telling]] = []
         for each in meanings:
             meant = self._meant(each)
@@ -222,11 +232,7 @@ class Suggestions:
                 telling = self._tellings[meant] = self._new_telling(meant)
             if telling.needing:
                 found.append((each, telling))
-        return [
-            telling
-            for each, telling in found
-            if not any(o.start <= each.start and each.end <= o.end and o is not each for o, _ in found)
-        ]
+        return found
 
     def _new_telling(self, meant: frozenset[Meaning]) -> _Telling:
         near = sorted({at for one in meant for at in self._meaning.get(one, ())})
@@ -263,6 +269,15 @@ class _Telling:
             found = needing / sum(share * word.holding.bit_count() for share, word in self.alike)
             self._chances[intent] = found
         return found
+
+
+def _longest(told: Sequence[tuple[Meanings, _Telling]]) -> list[_Telling]:
+    """What those stretches tell that are in no other."""
+    return [
+        telling
+        for each, telling in told
+        if not any(o.start <= each.start and each.end <= o.end and o is not each for o, _ in told)
+    ]
 
 
 def _share(meant: frozenset[Meaning], other: frozenset[Meaning]) -> float:
