@@ -7,6 +7,7 @@ from typing import Any
 
 import httpx
 import pytest
+import pytest_asyncio
 from jsonschema import Draft202012Validator
 
 from service.app import create_app
@@ -40,7 +41,8 @@ def valid(schema: Json, value: Any) -> None:
     Draft202012Validator({**schema, "components": DOCUMENT["components"]}).validate(value)
 
 
-@pytest.fixture
+# The app lives as long as the module, and what its coroutines wait for belongs to one event loop.
+@pytest_asyncio.fixture(loop_scope="module")
 async def client() -> AsyncIterator[httpx.AsyncClient]:
     async with httpx.AsyncClient(transport=httpx.ASGITransport(APP), base_url="http://localhost") as client:
         yield client
@@ -59,6 +61,7 @@ def test_every_call_with_a_body_has_examples() -> None:
     assert with_body == {parameter.values[0] for parameter in EXAMPLES}
 
 
+@pytest.mark.asyncio(loop_scope="module")
 @pytest.mark.parametrize(("path", "method", "operation", "kind", "body"), EXAMPLES)
 async def test_an_example_is_answered_as_documented(
     client: httpx.AsyncClient, path: str, method: str, operation: Json, kind: str, body: Json
@@ -90,6 +93,7 @@ def test_an_example_of_a_refusal_is_one(path: str, method: str, operation: Json)
             valid(content["schema"], example["value"])
 
 
+@pytest.mark.asyncio(loop_scope="module")
 @pytest.mark.parametrize(("path", "method", "operation", "kind", "body"), EXAMPLES)
 async def test_a_key_and_a_tag_are_documented_where_they_are_taken(
     client: httpx.AsyncClient, path: str, method: str, operation: Json, kind: str, body: Json
