@@ -108,6 +108,9 @@ def test_parts_mean_together_what_they_mean_alone(
     [
         "why did you stop and turn left",
         "explain your last decision and stop",
+        "explain your most recent manoeuvre and stop",
+        "why did you swerve and turn left",
+        "why did you change lanes and stop",
         "begin again and also exactly 12 cars",
         "save this as monday demo and turn left",
         "are there any potholes. five potholes",
