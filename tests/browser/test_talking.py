@@ -159,4 +159,4 @@ def test_talk_shows_how_far_an_evaluation_is_and_then_what_came_of_it(visit: Vis
     assert visitor.page.request.get(visitor.url + report).ok
     visitor.page.reload()
     visitor.wait_live()
-    expect(visitor.page.locator(".exchange").first).to_contain_text("95 % interval")
+    expect(visitor.page.locator(".exchange").first).to_contain_text("arrived in every one of 40 runs")
