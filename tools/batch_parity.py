@@ -12,6 +12,7 @@ import random
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 from sim.batch import Batch
 from sim.config import Config, ConfigError
@@ -72,9 +73,11 @@ def mixed_configs(seed: int, count: int) -> Iterator[list[Config]]:
         yield group
 
 
-def difference(configs: list[Config], ticks: int) -> Difference | None:
+def difference(
+    configs: list[Config], ticks: int, planner: Literal["priority", "rules"] = "priority"
+) -> Difference | None:
     """The first thing that is not the same in both engines; None if all is."""
-    configs = [config for config in configs if _has_a_road(config)]
+    configs = [config.with_parts(planner=planner) for config in configs if _has_a_road(config)]
     if not configs:
         return None
     batch, runs = Batch(configs), [SimState.start(config) for config in configs]
@@ -83,7 +86,7 @@ def difference(configs: list[Config], ticks: int) -> Difference | None:
             if batch.digest(lane) != run.world.digest():
                 return Difference(run.config, tick, "state")
         if tick < ticks:
-            batch.run(1)
+            batch.run(1, planner)
             runs = [step(run).state for run in runs]
     totals = batch.totals()
     for lane, run in enumerate(runs):
@@ -115,10 +118,11 @@ def main() -> int:
     parser.add_argument("--worlds", type=int, default=10_000)
     parser.add_argument("--ticks", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--planner", choices=("priority", "rules"), default="priority")
     options = parser.parse_args()
     done, differing = 0, 0
     for configs in mixed_configs(options.seed, options.worlds):
-        found = difference(configs, options.ticks)
+        found = difference(configs, options.ticks, options.planner)
         done += len(configs)
         if found is not None:
             differing += 1

@@ -42,6 +42,7 @@ from sim.batch.layout import (
 )
 from sim.batch.reachability import exact_moves
 from sim.batch.roads import begin_all, renew
+from sim.batch.rule_moves import ruled_moves
 from sim.batch.sensing.beliefs import Beliefs
 from sim.batch.tick_kernel import END_FIELD, MAX_TICKS_A_CALL, MOVE_FIELD, ticks_kernel
 from sim.config import Config
@@ -52,17 +53,20 @@ from sim.rules.compiled import COMPILED_MOTION, SENSING_PLANNER
 from sim.sensor_names import DEFAULT_SENSOR
 from sim.state import SimState
 
-BatchPlanner = Literal["priority", "bfs", "weighted", "astar", "dijkstra", Alias]
-"""The rule; the least ticks, by an older name as well; the least cost by three names, since `astar` and
+BatchPlanner = Literal["priority", "rules", "bfs", "weighted", "astar", "dijkstra", Alias]
+"""Two by rules; the least ticks, by an older name as well; the least cost by three names, since `astar` and
 `dijkstra` decide the same."""
 
 _KERNELS: Final[dict[str, Any]] = {
+    "rules": ruled_moves,
     "bfs": exact_moves,
     "weighted": weighted_moves,
     "astar": weighted_moves,
     "dijkstra": weighted_moves,
 }
-"""Planners that look ahead, apart from the tick."""
+"""Planners that decide apart from the tick."""
+_LOCAL: Final = frozenset(("priority", "rules"))
+"""Planners for which a situation that repeats is STUCK (`sim.repetition`)."""
 
 _NEXT, _THIS = 1, 2
 _FIELD: Final = np.uint64(2**16 - 1)
@@ -151,10 +155,11 @@ class Batch(Lanes):
             raise ValueError(f"a batch runs 0 ticks or more, not {ticks}")
         _some(threads)
         if planner == "priority" and self._beliefs is None:
-            self._advance(ticks, threads, asked=False)
+            self._advance(ticks, threads, asked=False, watching=True)
             return
         for _ in range(ticks):
-            self.step(self.moves(planner, threads=threads), threads=threads)
+            moves = self.moves(planner, threads=threads)
+            self._step(moves, threads, watching=planner in _LOCAL and self._beliefs is None)
 
     def run_to_end(self, planner: BatchPlanner = "priority", *, threads: int = 1) -> None:
         """All lanes to the end of their episodes.
@@ -180,12 +185,17 @@ class Batch(Lanes):
             raise ValueError(f"{len(self)} moves are wanted, one for each lane")
         if moves.max(initial=0) > 5:
             raise ValueError("a move is a number from 0 to 5")
+        self._step(moves, threads, watching=False)
+
+    def _step(self, moves: NDArray[np.uint8], threads: int, *, watching: bool) -> None:
+        """One tick; with `watching` the moves are those of a planner that repeats itself."""
         asked = np.full(self._ticks.shape, 5, np.uint64)
         asked[: len(self)] = moves
         self._plane(ASKED)[...] = asked.reshape(-1, LANES)
-        self._plane(IN_ROW)[...] = _ALL
+        if not watching:
+            self._plane(IN_ROW)[...] = _ALL
         self._sense(threads)
-        self._advance(1, threads, asked=True)
+        self._advance(1, threads, asked=True, watching=watching)
         if self._beliefs is not None:
             self._beliefs.looked[:] = 0
 
@@ -202,8 +212,11 @@ class Batch(Lanes):
     def least(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.int64]:
         """Least ticks (`bfs`) or least cost (`weighted`) to the goal (shape: lanes).
 
-        −1 where no way leads there, 0 where a result stands. Raises `ValueError` as `moves` does.
+        −1 where no way leads there, 0 where a result stands. Raises `ValueError` as `moves` does, and for
+        planners that search none.
         """
+        if _known(planner) in _LOCAL:
+            raise ValueError(f"{planner!r} searches no way to the goal")
         return self._plan(planner, threads)[1]
 
     def trials(self, *, threads: int = 1) -> NDArray[np.uint8]:
@@ -283,12 +296,12 @@ class Batch(Lanes):
         self._on_threads(threads, lambda part: beliefs.rule_moves(*given, part, moves))
         return moves
 
-    def _advance(self, ticks: int, threads: int, *, asked: bool) -> None:
+    def _advance(self, ticks: int, threads: int, *, asked: bool, watching: bool) -> None:
         kernel = ticks_kernel(
             walking=self._walking(),
             courteous=self._by_chance,
             bodily=self._bodily,
-            watching=bool(self._plane(WATCHING).any()) and not asked,
+            watching=watching and bool(self._plane(WATCHING).any()),
             held=self.after != "restart",
             asked=asked,
             renewed=self.after == "next",

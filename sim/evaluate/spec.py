@@ -33,7 +33,7 @@ MAX_PLANNERS: Final = 6
 """Most planners that are compared at once."""
 COMPILED_FROM: Final = 1_000
 """Episodes from which the compiled batch pays: loading it takes a second or two in each process."""
-COMPILED: Final = {"priority": 50_000, "astar": 1_000, "dijkstra": 1_000, "bfs": 5_000}
+COMPILED: Final = {"priority": 50_000, "rules": 5_000, "astar": 1_000, "dijkstra": 1_000, "bfs": 5_000}
 """Episodes of a part, by planner, that the compiled batch runs in well under a second or so."""
 LIVE_PART: Final = 20
 """Episodes of a part where a planner is asked one decision at a time."""

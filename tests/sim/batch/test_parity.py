@@ -31,6 +31,22 @@ def test_mixed_roads_go_the_same_way(group: int) -> None:
     assert difference(CONFIGS[group], 120) is None
 
 
+@pytest.mark.parametrize("group", range(0, len(CONFIGS), 2))
+def test_mixed_roads_go_the_same_way_by_rules(group: int) -> None:
+    assert difference(CONFIGS[group], 120, "rules") is None
+
+
+@settings(max_examples=120)
+@given(worlds(), RULES)
+def test_the_rules_decide_the_same_at_any_moment(world: World, rules: dict[str, Any]) -> None:
+    run = run_on(world, **rules, reset_delay_s=1.0, planner="rules")
+    batch = Batch.of([run])
+    for _ in range(12):
+        assert batch.digest(0) == run.world.digest()
+        batch.run(1, "rules")
+        run = step(run).state
+
+
 def test_the_largest_road() -> None:
     config = Config(columns=64, rows=512, pedestrians=50, potholes=300, courtesy=0.3, planner="priority")
     assert difference([config], 60) is None
@@ -106,7 +122,12 @@ def test_what_lies_near_is_charged_on_its_own_side() -> None:
 def test_a_mover_brakes_for_a_vehicle_that_stays() -> None:
     """And the rule, the planners and moves handed in know it."""
     walled = road(".....", "#####", ".>A#.", ".###.", ".....")
-    for planner, name in (("priority", "priority"), ("bfs", "bfs"), ("dijkstra", "weighted")):
+    for planner, name in (
+        ("priority", "priority"),
+        ("rules", "rules"),
+        ("bfs", "bfs"),
+        ("dijkstra", "weighted"),
+    ):
         run = run_on(walled, planner=planner, attentive=1.0, repetition=False)
         batch = Batch.of([run])
         batch.run(1, name)
@@ -296,12 +317,12 @@ def test_a_lane_can_be_looked_at_as_a_world() -> None:
 def test_a_planner_that_there_is_not_is_refused(planner: Any) -> None:
     batch = Batch([Config(rows=5)], after="stop")
     for use in (lambda: batch.run(1, planner), lambda: batch.run_to_end(planner)):
-        with pytest.raises(ValueError, match="priority, bfs, weighted, astar or dijkstra"):
+        with pytest.raises(ValueError, match="priority, rules, bfs, weighted, astar or dijkstra"):
             use()
     for ask in (batch.moves, batch.least):
-        with pytest.raises(ValueError, match="priority, bfs, weighted, astar or dijkstra"):
+        with pytest.raises(ValueError, match="priority, rules, bfs, weighted, astar or dijkstra"):
             ask(planner)
-    with pytest.raises(ValueError, match="priority, bfs"):
+    with pytest.raises(ValueError, match="priority, rules, bfs"):
         batch.run(0, planner)
     assert (batch.episode_ticks == 0).all()
 

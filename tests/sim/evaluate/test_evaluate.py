@@ -89,7 +89,7 @@ def test_two_processes_find_what_one_does() -> None:
     assert told[-1] == PAIR.episodes
 
 
-@pytest.mark.parametrize("planner", ["priority", "astar", "bfs"])
+@pytest.mark.parametrize("planner", ["priority", "rules", "astar", "bfs"])
 @pytest.mark.parametrize(
     "config",
     [
