@@ -106,9 +106,9 @@ class NearestBelieved:
 def _json(found: Believed) -> Json:
     thing, truth, missed = found.thing, found.truth, found.missed
     return {
-        "seen": None
+        "seen": []
         if thing is None
-        else {"id": thing.id, "kind": thing.kind, "cell": list(thing.cell), "likelihood": thing.likelihood},
+        else [{"id": thing.id, "kind": thing.kind, "cell": list(thing.cell), "likelihood": thing.likelihood}],
         "really": None if truth is None else {"id": truth.id, "cell": list(truth.cell)},
         "is_there": found.is_there,
         "reported": found.reported,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, Final
 
 from service.narration.answer_length import Part, within
@@ -45,13 +46,21 @@ class SensorEffects:
 
     def _limits(self, state: SimState, words: list[str]) -> tuple[str, Json]:
         """Weather or light first; then how far a car is detected without each."""
-        config = state.config
+        named = next((each for each in words if each in SUITES), None)
+        config = state.config if named is None else replace(state.config, sensor=named)
         if sensor_named(config.sensor).faithful:
             return self._say("limits", "perfect"), {"limit": "neither"}
         found = sight_limits(config)
         if found is None:
             return self._say("unknown", sensor=config.sensor), {"limit": None}
-        told = [Part(0, self._absent(state, words)), Part(0, self._which(found, state))]
+        told = [Part(0, self._absent(state, [each for each in words if each != named]))]
+        if named is not None:
+            told.append(Part(0, self._say("limits", "of", sensor=value_of(self._sayings, "sensor", named))))
+        told.append(Part(0, self._which(found, state)))
+        holes = sight_limits(config, Kind.POTHOLE)
+        if found.limit == "neither" and holes is not None and holes.limit != "neither":
+            # One device may see cars all the same, and none sees potholes.
+            told.append(Part(0, self._which(holes, state)))
         return within([each for each in told if each.text]), {
             "limit": found.limit,
             "half_detected_cells": {
@@ -80,6 +89,7 @@ class SensorEffects:
                 ("best", found.best),
             )
         }
+        metres["a"] = self._sayings.say("words", "a", found.kind)
         if found.weather == "clear" and found.light == "day":
             return self._say("limits", "none", **metres)
         if found.weather == "clear" or found.light == "day":

@@ -1,4 +1,4 @@
-"""Whether the weather or the light limits a sensor more: how far it detects a car with each of them away."""
+"""Whether the weather or the light limits a sensor more: how far it detects things with each of them away."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ Limit = Literal["weather", "light", "both", "neither"]
 
 @dataclass(frozen=True, slots=True)
 class SightLimits:
-    """Cells ahead up to which one look detects a car in at least half of the cases."""
+    """Cells ahead up to which one look detects a thing of a kind in at least half of the cases."""
+
+    kind: Kind
 
     weather: Weather
     light: TimeOfDay
@@ -37,7 +39,7 @@ class SightLimits:
         return "weather" if self.in_clear > self.by_day else "light"
 
 
-def sight_limits(config: Config) -> SightLimits | None:
+def sight_limits(config: Config, kind: Kind = Kind.VEHICLE) -> SightLimits | None:
     """What limits the configured sensor; None for one that is perfect or of another package."""
     found = [
         reach(replace(config, weather=weather, time_of_day=light))
@@ -48,7 +50,7 @@ def sight_limits(config: Config) -> SightLimits | None:
             ("clear", "day"),
         )
     ]
-    cells = [each.half[Kind.VEHICLE] for each in found if each is not None]
+    cells = [each.half[kind] for each in found if each is not None]
     if len(cells) < len(found):
         return None
-    return SightLimits(config.weather, config.time_of_day, *cells)
+    return SightLimits(kind, config.weather, config.time_of_day, *cells)
