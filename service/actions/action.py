@@ -157,7 +157,9 @@ class Ask:
         if self.about == "sight" and self.kind is not None and self.what not in ("detection", "belief"):
             raise ValueError("of sensing, detection and belief alone are asked of a kind of things")
         if self.about == "sight" and self.value is not None and not self._names_a_sensor():
-            raise ValueError("of one sensor, 'weathers' and 'sensor_fault' are asked, and it is one that errs")
+            raise ValueError(
+                "of one sensor, 'weathers' and 'sensor_fault' are asked, and it is one that errs"
+            )
         supposed = self.what in (*get_args(PolicyName), *get_args(SoonerName))
         if self.about == "what_if" and sum((self.change is not None, self.move is not None, supposed)) != 1:
             raise ValueError("say exactly one of 'change' and 'move', or what is supposed of the drive")

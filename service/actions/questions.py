@@ -222,11 +222,11 @@ whether it feels; `sources`: where answers come from; `by_hand`: what happens wh
 `giving_up`: when a drive counts as stuck; `tick_order`: who moves first; `sharing`: whether others collide;
 `fixtures`: traffic lights, horns and the like; `endings`: what follows an end; `road_made`: how
 roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`:
-whether there are any; `behind`: whether anything comes from behind; `picture`: why pictures show more than is seen; `hand_sight`:
-what a person who drives sees; `holes`: whether a pothole may be driven over; `export`: how a drive is saved;
-`switching`: what can be set during a drive; `stepping`: whether one can go back to a tick; `emergency`: why
-there is no emergency braking; `traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim
-about a rate takes.
+whether there are any; `behind`: whether anything comes from behind; `picture`: why
+pictures show more than is seen; `hand_sight`: what a person who drives sees; `holes`: whether a pothole may
+be driven over; `export`: how a drive is saved; `switching`: what can be set during a drive; `stepping`:
+whether one can go back to a tick; `emergency`: why there is no emergency braking; `traffic_rules`: whether
+one was broken; `runs_needed`: how many runs a claim about a rate takes.
 """
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""

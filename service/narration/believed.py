@@ -23,7 +23,7 @@ MOST_PERCENT: Final = 99
 
 
 class NearestBelieved:
-    """Answers to "how sure are you of the nearest pothole?", "which sensor saw it?", "is it really there?"."""
+    """Answers to "how sure are you of the nearest pothole?", "which sensor saw it?"."""
 
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
@@ -48,7 +48,11 @@ class NearestBelieved:
         if found.faithful:
             parts = [Part(0, self._say("perfect", nearest=self._nearest(thing, kind, asked)))]
             return within([*parts, *shadow])
-        sure, seen, truth = self._sure(thing, kind, asked), self._reported(found, asked), self._truth(found, asked)
+        sure, seen, truth = (
+            self._sure(thing, kind, asked),
+            self._reported(found, asked),
+            self._truth(found, asked),
+        )
         order = [sure, seen, truth]
         if DEVICE in words:
             order = [seen, sure, truth]
@@ -81,7 +85,9 @@ class NearestBelieved:
         ago = state.world.tick - found.reported
         if ago == 0:
             return self._say("reported", devices=devices)
-        return self._say("reported_before", devices=devices, seconds=in_seconds(self._sayings, ago, state.config))
+        return self._say(
+            "reported_before", devices=devices, seconds=in_seconds(self._sayings, ago, state.config)
+        )
 
     def _truth(self, found: Believed, asked: Asked) -> str:
         if found.is_there:

@@ -75,7 +75,9 @@ class SensorEffects:
         """That what was asked about does not hold here; empty where it does."""
         config = state.config
         gone = [each for each in words if each not in (config.weather, config.time_of_day)]
-        return self._say("not_now", conditions=self._named(config.weather, config.time_of_day)) if gone else ""
+        return (
+            self._say("not_now", conditions=self._named(config.weather, config.time_of_day)) if gone else ""
+        )
 
     def _which(self, found: SightLimits, state: SimState) -> str:
         weather, light = self._condition(found.weather), self._condition(found.light)
@@ -157,7 +159,9 @@ class SensorEffects:
             Part(0, self._absent(state, words)),
             Part(0, self._say("coping", "how", conditions=conditions_of(self._sayings, config))),
             Part(0, self._say("coping", "far", **metres)),
-            Part(1, self._say("coping", "threshold", percent=self._percent(1 - config.detection_sensitivity))),
+            Part(
+                1, self._say("coping", "threshold", percent=self._percent(1 - config.detection_sensitivity))
+            ),
             Part(2, self._say("coping", "risk")),
         ]
         half = {kind.value: cells for kind, cells in found.half.items()}

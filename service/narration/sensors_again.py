@@ -1,4 +1,4 @@
-"""Which sensor would have led to the goal, and whether the present one is to blame: the failed drive again."""
+"""Which sensor would have led to the goal, and whether the present one is to blame: driven again."""
 
 from __future__ import annotations
 

@@ -59,10 +59,10 @@ class SessionFacts:
         told.append(Part(0, self._say("hand_sight", "perfect" if faithful else "errs", sensor=sensor)))
         return within(told), {"faithful": faithful}
 
-    def _holes(self, asked: Asked) -> tuple[str, Json]:
+    def _holes(self, asked: Asked) -> tuple[str, Json]:  # noqa: ARG002 -- it is the same of every session
         return self._say("holes"), {}
 
-    def _export(self, asked: Asked) -> tuple[str, Json]:
+    def _export(self, asked: Asked) -> tuple[str, Json]:  # noqa: ARG002 -- it is the same of every session
         return self._say("export"), {}
 
     def _switching(self, asked: Asked) -> tuple[str, Json]:

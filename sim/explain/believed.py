@@ -1,4 +1,4 @@
-"""The nearest thing that is believed to be there: how surely, which devices reported it, whether it is there."""
+"""The nearest thing that is believed in: how surely, which devices reported it, whether it is there."""
 
 from __future__ import annotations
 
@@ -46,9 +46,7 @@ def believed(timeline: Timeline, kind: Kind | None = None, *, ahead: bool = Fals
     state = timeline.state
     faithful = sensor_named(state.config.sensor).faithful
     scene = describe_percept(sense(state)[0], state.config)
-    seen = [
-        each for each in scene.of(kind) if each.kind in PLACEABLE and (each.rows > 0 or not ahead)
-    ]
+    seen = [each for each in scene.of(kind) if each.kind in PLACEABLE and (each.rows > 0 or not ahead)]
     thing = min(seen, key=lambda each: _order(each.lanes, each.rows), default=None)
     missed = None if faithful else _missed(state, kind, thing, ahead=ahead)
     if thing is None:
@@ -122,7 +120,5 @@ def reporting(state: SimState, id: str, kind: Kind, cell: Cell) -> tuple[str, ..
     return tuple(
         each.model.spec.name
         for each in looks(state.world, state.config, 0, suite)
-        if any(
-            report.kind is kind and (report.id == id or report.cell == index) for report in each.reports
-        )
+        if any(report.kind is kind and (report.id == id or report.cell == index) for report in each.reports)
     )
