@@ -184,5 +184,5 @@ class SensorEffects:
 
 def _effect(spec: SensorSpec, condition: str) -> Effect:
     """What a condition does to a device."""
-    known: dict[str, Effect] = {**spec.weather, **spec.light}
-    return known[condition]
+    effects = (*spec.weather.items(), *spec.light.items())
+    return next(effect for name, effect in effects if name == condition)

@@ -51,7 +51,7 @@ class SensorsAgain:
         """Why nothing needs to be driven again: it is another sensor, or one that shows all there is."""
         config, value = asked.timeline.state.config, asked.ask.value
         sensor = value_of(self._sayings, "sensor", config.sensor)
-        part = config.sensor == "fusion" and value in (each.name for each in SUITES["fusion"])
+        part = config.sensor == "fusion" and str(value) in [each.name for each in SUITES["fusion"]]
         if value is not None and value != config.sensor and not part:
             named = value_of(self._sayings, "sensor", str(value))
             return self._fault("another", named=named, sensor=sensor)

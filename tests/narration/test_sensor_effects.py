@@ -45,10 +45,8 @@ def test_what_limits_more_is_what_reaches_farther_without() -> None:
                     config = Config(sensor=sensor).with_parts(weather=weather, time_of_day=light)
                     found = sight_limits(config, kind)
                     assert found is not None
-                    clear, day = (
-                        reach(replace(config, **each))
-                        for each in ({"weather": "clear"}, {"time_of_day": "day"})
-                    )
+                    clear = reach(replace(config, weather="clear"))
+                    day = reach(replace(config, time_of_day="day"))
                     assert clear is not None
                     assert day is not None
                     assert (found.in_clear, found.by_day) == (clear.half[kind], day.half[kind])
@@ -84,7 +82,8 @@ def test_how_a_condition_is_simulated_is_the_table_of_it() -> None:
     for condition in ("fog", "rain", "snow", "night", "dusk"):
         told = asked(timeline, "model", condition)
         for spec in SUITES["fusion"]:
-            effect: Any = {**spec.weather, **spec.light}[condition]  # type: ignore[dict-item]
+            table: list[tuple[str, Any]] = [*spec.weather.items(), *spec.light.items()]
+            effect = dict(table)[condition]
             assert told["effects"][spec.name]["reach"] == effect.reach
             assert f"{spec.name} {round(100 * effect.reach, 1):g} %" in told["text"]
     assert asked(timeline, "model")["condition"] == "fog"
