@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import ceil, exp, lgamma, log, sqrt
+from math import ceil, exp, lgamma, log, log1p, sqrt
 from statistics import fmean, stdev
 from typing import Final
 
@@ -77,3 +77,43 @@ def pairs_needed(discordant: float, difference: float) -> int | None:
         return None
     spread = sqrt(max(0.0, discordant - difference * difference))
     return ceil(((Z * sqrt(discordant) + Z_POWER * spread) / difference) ** 2)
+
+
+def tries_to_claim(rate: float, confidence: float, hits: int = 0) -> int:
+    """The independent tries with which `hits` hits show that a rate is below `rate`, with a confidence.
+
+    The smallest n for which at most so many hits in n tries have a probability of 1 − `confidence` or less
+    where the rate is `rate`: the exact one-sided test of a binomial share. Both are above 0 and below 1.
+
+    Source: Clopper & Pearson, "The use of confidence or fiducial limits illustrated in the case of the
+    binomial", Biometrika, 1934; without hits and at 95 % it is about 3 / `rate` (Hanley & Lippman-Hand, "If
+    nothing goes wrong, is everything all right?", JAMA, 1983).
+    """
+    doubt = 1.0 - confidence
+    above = hits + 1
+    while _at_most(hits, above, rate) > doubt:
+        above *= 2
+    below = max(hits, above // 2)
+    while above - below > 1:
+        middle = (above + below) // 2
+        if _at_most(hits, middle, rate) > doubt:
+            below = middle
+        else:
+            above = middle
+    return above
+
+
+def _at_most(hits: int, tries: int, rate: float) -> float:
+    """The probability of at most so many hits."""
+    if tries <= hits:
+        return 1.0
+    return sum(
+        exp(
+            lgamma(tries + 1)
+            - lgamma(each + 1)
+            - lgamma(tries - each + 1)
+            + each * log(rate)
+            + (tries - each) * log1p(-rate)
+        )
+        for each in range(hits + 1)
+    )

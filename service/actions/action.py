@@ -152,10 +152,14 @@ class Ask:
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
         if self.about == "history":
             self._check_counted()
-        if self.about == "sight" and (self.kind is None) is (self.what == "detection"):
-            raise ValueError("of sensing, detection and nothing else is asked of a kind of things")
+        if self.about == "sight" and self.kind is None and self.what == "detection":
+            raise ValueError("detection is asked of a kind of things")
+        if self.about == "sight" and self.kind is not None and self.what not in ("detection", "belief"):
+            raise ValueError("of sensing, detection and belief alone are asked of a kind of things")
         if self.about == "sight" and self.value is not None and not self._names_a_sensor():
-            raise ValueError("of one sensor, 'weathers' are asked, and it is one that errs")
+            raise ValueError(
+                "of one sensor, 'weathers' and 'sensor_fault' are asked, and it is one that errs"
+            )
         supposed = self.what in (*get_args(PolicyName), *get_args(SoonerName))
         if self.about == "what_if" and sum((self.change is not None, self.move is not None, supposed)) != 1:
             raise ValueError("say exactly one of 'change' and 'move', or what is supposed of the drive")
@@ -176,7 +180,8 @@ class Ask:
         )
 
     def _names_a_sensor(self) -> bool:
-        return self.what == "weathers" and self.value in get_args(SensorName) and self.value != "perfect"
+        one = self.what in ("weathers", "sensor_fault")
+        return one and self.value in get_args(SensorName) and self.value != "perfect"
 
     def _is_no_stretch(self) -> bool:
         return self.what not in ("stopped", "moving", *(("sighted",) if self.want == "share" else ()))

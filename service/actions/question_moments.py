@@ -40,7 +40,7 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     },
     **{("planners", what): "decision" for what in _OF_A_DECISION},
     **{("planners", what): "none" for what in get_args(PlannersName) if what not in _OF_A_DECISION},
-    **{("sight", what): "none" for what in ("detection", "combining", "memory", "unseen")},
+    **{("sight", what): "none" for what in ("detection", "combining", "memory", "unseen", "model")},
     **{
         ("world", what): "none"
         for what in (
@@ -65,10 +65,20 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
             "contact",
             "points",
             "behind",
+            "hand_sight",
+            "holes",
+            "export",
+            "switching",
+            "stepping",
+            "emergency",
+            "picture",
+            "runs_needed",
         )
     },
     ("world", "harm"): "drive",
     ("sight", "prevents"): "drive",
+    ("sight", "sensor_fault"): "drive",
+    ("world", "traffic_rules"): "drive",
     ("planners", "parting"): "drive",
 }
 """By kind and `what`, where that is another one."""

@@ -158,6 +158,12 @@ SightName = Literal[
     "detection",
     "combining",
     "prevents",
+    "sensor_fault",
+    "limits",
+    "model",
+    "coping",
+    "sensor_choice",
+    "belief",
 ]
 """What about sensing is asked.
 
@@ -165,7 +171,10 @@ SightName = Literal[
 difference; `care`: whether it drives otherwise in bad weather; `weathers`, `sensors`: which is best or worst;
 `memory`: whether it remembers what it saw; `unseen`: what a cell out of sight counts as; `detection`: how
 surely each sensor detects a kind of things; `combining`: how several devices become one belief; `prevents`:
-which sensor would have led to the goal.
+which sensor would have led to the goal; `sensor_fault`: whether the sensor is to blame; `limits`: whether
+weather or light limits it more; `model`: how weather and light are simulated; `coping`: how it drives where
+little is seen; `sensor_choice`: who chose the sensor; `belief`: how sure it is of the nearest thing, which
+device saw that, and whether it is there.
 """
 WorldName = Literal[
     "pace",
@@ -194,6 +203,15 @@ WorldName = Literal[
     "contact",
     "points",
     "behind",
+    "picture",
+    "hand_sight",
+    "holes",
+    "export",
+    "switching",
+    "stepping",
+    "emergency",
+    "traffic_rules",
+    "runs_needed",
 ]
 """What about this world and its rules is asked.
 
@@ -204,7 +222,11 @@ whether it feels; `sources`: where answers come from; `by_hand`: what happens wh
 `giving_up`: when a drive counts as stuck; `tick_order`: who moves first; `sharing`: whether others collide;
 `fixtures`: traffic lights, horns and the like; `endings`: what follows an end; `road_made`: how
 roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`:
-whether there are any; `behind`: whether anything comes from behind.
+whether there are any; `behind`: whether anything comes from behind; `picture`: why
+pictures show more than is seen; `hand_sight`: what a person who drives sees; `holes`: whether a pothole may
+be driven over; `export`: how a drive is saved; `switching`: what can be set during a drive; `stepping`:
+whether one can go back to a tick; `emergency`: why there is no emergency braking; `traffic_rules`: whether
+one was broken; `runs_needed`: how many runs a claim about a rate takes.
 """
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""

@@ -274,6 +274,8 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
             if what not in ("safe", "coming", "difference", "detection", "parting"):
                 yield {"do": "ask", "about": about, "what": what}
     yield {"do": "ask", "about": "sight", "what": "detection", "kind": "pedestrian"}
+    yield {"do": "ask", "about": "sight", "what": "belief", "kind": "pothole"}
+    yield {"do": "ask", "about": "sight", "what": "sensor_fault", "value": "radar"}
     yield {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3}
     yield {"do": "ask", "about": "outlook", "what": "coming", "seconds": 2.5}
     for what in (*WHATS["blame"], "own"):

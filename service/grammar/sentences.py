@@ -401,11 +401,19 @@ class Sentences(RuleSentences):
         key += "" if ask.ticks is None else "_ticks"
         key += "" if ask.seconds is None else "_seconds"
         key += "" if ask.kind is None else "_kind"
+        key += "" if ask.value is None else "_sensor"
+        sensor = "" if ask.value is None else self._value("sensor", ask.value)
         seconds = "" if ask.seconds is None else number(ask.seconds)
         things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
         move = "" if ask.move is None else self._word("asked", ask.move)
         return self._word(ask.about, key).format(
-            planners=planners, tick=ask.tick, ticks=ask.ticks, seconds=seconds, move=move, things=things
+            planners=planners,
+            tick=ask.tick,
+            ticks=ask.ticks,
+            seconds=seconds,
+            move=move,
+            things=things,
+            sensor=sensor,
         )
 
     def _evaluation_talk(self, action: EvaluationTalk) -> str:

@@ -11,6 +11,7 @@ from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.asked_moment import at_its_moment
+from service.narration.believed import NearestBelieved
 from service.narration.blame import Blames
 from service.narration.choices import Choices
 from service.narration.coming_turn import ComingTurns
@@ -39,7 +40,9 @@ from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
 from service.narration.sensing_compared import SensingCompared
 from service.narration.sensing_facts import SensingFacts
+from service.narration.sensor_effects import SensorEffects
 from service.narration.sensors_again import SensorsAgain
+from service.narration.session_facts import SessionFacts
 from service.narration.settings import Settings
 from service.narration.sight import Sights
 from service.narration.sightings import PastSightings
@@ -86,6 +89,19 @@ FACTS_OF_THE_WORLD: Final = (
 )
 """What is asked of how this world is made."""
 
+FACTS_OF_THE_SESSION: Final = (
+    "picture",
+    "hand_sight",
+    "holes",
+    "export",
+    "switching",
+    "stepping",
+    "emergency",
+    "traffic_rules",
+    "runs_needed",
+)
+"""What is asked of the simulator around a drive."""
+
 FACTS_OF_PLANNERS: Final = ("lookahead", "ties", "replanning", "precedence", "costs", "halts", "prediction")
 """What is asked of how a planner decides always."""
 
@@ -125,7 +141,10 @@ class Answers:
             SensingFacts(sayings): ("memory", "unseen", "detection", "combining"),
             PlannerDifferences(sayings): ("difference",),
             HumanDrivers(sayings): ("human",),
-            SensorsAgain(sayings): ("prevents",),
+            SensorsAgain(sayings): ("prevents", "sensor_fault"),
+            SensorEffects(sayings): ("limits", "model", "coping", "sensor_choice"),
+            NearestBelieved(sayings): ("belief",),
+            SessionFacts(sayings): FACTS_OF_THE_SESSION,
             PlannerPartings(sayings): ("parting",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}

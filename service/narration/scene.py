@@ -51,6 +51,9 @@ class Scenes:
             text = SceneTold(self._sayings, run, scene).on_side(side, kind)
         elif asked.ask.count is not None and kind is not None:
             text = told.nearest(kind)
+        elif kind is None and "anybody" in about.words:
+            text = told.anybody()
+            wrong = movers_ahead(wrong, run)
         elif kind is None and {"anything", "clear"} & set(about.words):
             text = told.agreed("clear" if "clear" in about.words else "anything")
         else:
@@ -85,6 +88,16 @@ class Scenes:
         if kind is None:
             return told.everything()
         return told.how_many(kind) if counting else told.kind(kind)
+
+
+def movers_ahead(wrong: Misperception, run: SimState) -> Misperception:
+    """What of it is of cars and people ahead of the ego."""
+    row = run.world.road.cell(run.world.av)[1]
+    phantoms, missed = (
+        tuple(thing for thing in things if thing.kind.moves and thing.cell[1] < row)
+        for things in (wrong.phantoms, wrong.missed)
+    )
+    return Misperception(phantoms, missed)
 
 
 def on_side(scene: Scene, side: str) -> Scene:

@@ -61,6 +61,13 @@ class SceneTold:
             return " ".join(filter(None, [f"{word}.", self._way(), self._counts()]))
         return f"{word}. {self.everything()}"
 
+    def anybody(self) -> str:
+        """Yes or no first; then the cars and people ahead, the nearest first, each with its noun."""
+        things = [thing for thing in self._scene.seen if thing.kind.moves and thing.rows > 0]
+        if not things:
+            return self.say("nobody")
+        return self.say("somebody", things=self.near_ones(sorted(things, key=distance)))
+
     def kind(self, kind: Kind) -> str:
         """Yes or no first; then those ahead, the nearest first, and how many there are besides."""
         things, noun = self._scene.of(kind), self.noun(kind, 2)

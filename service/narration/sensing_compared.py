@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, get_args
 
@@ -10,7 +11,7 @@ from service.narration.answerer import Json, plain
 from service.narration.sayings import Sayings
 from service.narration.values import conditions_of, value_of
 from service.sessions.facts import Asked
-from sim.actions import Weather
+from sim.actions import TimeOfDay, Weather
 from sim.config import Config
 from sim.explain.planners import planner_of
 from sim.explain.sensing import reach
@@ -34,7 +35,8 @@ class SensingCompared:
         if ask.what == "weathers":
             text, facts = self._weathers(state, None if ask.value is None else str(ask.value))
         else:
-            text, facts = (self._care if ask.what == "care" else self._sensors)(state)
+            words = (asked.supposes or "").split()
+            text, facts = self._care(state) if ask.what == "care" else self._sensors(state, words)
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
 
     def _care(self, state: SimState) -> tuple[str, Json]:
@@ -78,36 +80,60 @@ class SensingCompared:
         )
         name = value_of(self._sayings, "sensor", config.sensor)
         worst = [each for each, metres in found.items() if metres == min(found.values())]
-        told = self._say("weathers", "told", sensor=name, listed=self._listed(found))
+        told = self._say("weathers", "told", sensor=name, listed=_listed(self._sayings, found))
         text = f"{told} {self._say('weathers', 'worst', worst=self._sayings.joined(worst))}"
         return text, {"half_detected_m": found}
 
-    def _sensors(self, state: SimState) -> tuple[str, Json]:
-        """How far each sensor detects a car in the present conditions; the best of them."""
-        config = state.config
-        found = {
-            value_of(self._sayings, "sensor", name): half_m(replace(config, sensor=name)) or 0.0
-            for name in SUITES
-        }
-        plain_light = replace(config, sensor="perfect")
-        conditions = conditions_of(self._sayings, plain_light) or self._say("plain")
-        best = [name for name, metres in found.items() if metres == max(found.values())]
-        told = [
-            self._say("sensors", "told", conditions=conditions, listed=self._listed(found)),
-            self._say("sensors", "best", best=self._sayings.joined(best)),
-            self._say("sensors", "perfect"),
-        ]
-        return " ".join(told), {"half_detected_m": found}
-
-    def _listed(self, found: dict[str, float]) -> str:
-        parts = [self._say("one", name=name, metres=self._metres(each)) for name, each in found.items()]
-        return self._sayings.listed(parts)
+    def _sensors(self, state: SimState, words: Sequence[str] = ()) -> tuple[str, Json]:
+        """How far each sensor detects a car in the conditions that were named, else in the present ones."""
+        config, facts = conditions_said(state.config, words)
+        told, found = sensors_listed(self._sayings, config)
+        return f"{told} {self._say('sensors', 'perfect')}", {"half_detected_m": found} | facts
 
     def _metres(self, metres: float) -> str:
         return self._sayings.number(round(metres, 1))
 
     def _say(self, *keys: str, **parts: Any) -> str:
         return self._sayings.say("sensing_compared", *keys, **parts)
+
+
+def sensors_listed(sayings: Sayings, config: Config) -> tuple[str, dict[str, float]]:
+    """How far each sensor detects a car in the conditions of a configuration, and which does so farthest."""
+    found = {
+        value_of(sayings, "sensor", name): half_m(replace(config, sensor=name)) or 0.0 for name in SUITES
+    }
+    conditions = conditions_of(sayings, replace(config, sensor="perfect"))
+    best = [name for name, metres in found.items() if metres == max(found.values())]
+    told = sayings.say(
+        "sensing_compared",
+        "sensors",
+        "told",
+        conditions=conditions or sayings.say("sensing_compared", "plain"),
+        listed=_listed(sayings, found),
+    )
+    return f"{told} {sayings.say('sensing_compared', 'sensors', 'best', best=sayings.joined(best))}", found
+
+
+def conditions_said(config: Config, words: Sequence[str]) -> tuple[Config, Json]:
+    """A configuration in the weather and light that a question names; with none, as they are.
+
+    Of what is named the rest is plain: "in fog" is in fog by day. Also what is supposed, as facts.
+    """
+    weather = next((each for each in get_args(Weather) if each in words), None)
+    light = next((each for each in get_args(TimeOfDay) if each in words), None)
+    if weather is None and light is None:
+        return config, {}
+    supposed = {"weather": weather or "clear", "time_of_day": light or "day"}
+    return config.with_parts(**supposed), {"supposed": supposed}
+
+
+def _listed(sayings: Sayings, found: Mapping[str, float]) -> str:
+    """Names with metres."""
+    parts = [
+        sayings.say("sensing_compared", "one", name=name, metres=sayings.number(round(metres, 1)))
+        for name, metres in found.items()
+    ]
+    return sayings.listed(parts)
 
 
 def at_its_best(config: Config) -> Config:
