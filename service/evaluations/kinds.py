@@ -22,23 +22,28 @@ _WORLD_BYTES: Final = 80
 
 
 class EvaluationJobs:
-    """Runs the parts of an evaluation; a piece is a stretch of episodes, and its weight their number."""
+    """Runs the parts of an evaluation; a piece is a stretch of episodes, and its weight what they cost.
+
+    Episodes that are followed tick by tick cost many times more than others, and the progress is to be true.
+    """
 
     name = EVALUATION
 
     def total(self, spec: Spec) -> int:
         """See `JobKind.total`."""
-        return int(spec["episodes"]) * max(1, len(spec.get("cases", ())))
+        return Evaluation.from_json(spec).work
 
     def size(self, spec: Spec) -> int:
         """See `JobKind.size`."""
-        return _EPISODE_BYTES * self.total(spec) * len(spec["planners"])
+        episodes = int(spec["episodes"]) * max(1, len(spec.get("cases", ())))
+        return _EPISODE_BYTES * episodes * len(spec["planners"])
 
     def pieces(self, spec: Spec, parts: Parts) -> Sequence[Piece]:
         """See `JobKind.pieces`."""
         if len(parts) == len(cut := _cut(orjson.dumps(spec))):
             return ()
-        return [Piece(part_key(part), part.count, part) for part in cut]
+        evaluation = Evaluation.from_json(spec)
+        return [Piece(part_key(part), evaluation.work_of(part), part) for part in cut]
 
     def work(self, spec: Spec) -> Callable[[Piece, Callable[[], bool]], bytes]:
         """See `JobKind.work`."""

@@ -65,7 +65,7 @@ class _EvaluationView:
 
     def done(self, worked: int) -> int:
         """See `JobView.done`."""
-        return worked
+        return self._spec.episodes_after(worked)
 
     def paragraphs(self, result: Result) -> list[str]:
         """See `JobView.paragraphs`."""

@@ -58,13 +58,12 @@ BatchPlanner = Literal["priority", "rules", "bfs", "weighted", "astar", "dijkstr
 `dijkstra` decide the same."""
 
 _KERNELS: Final[dict[str, Any]] = {
-    "rules": ruled_moves,
     "bfs": exact_moves,
     "weighted": weighted_moves,
     "astar": weighted_moves,
     "dijkstra": weighted_moves,
 }
-"""Planners that decide apart from the tick."""
+"""Planners that search a way, apart from the tick."""
 _LOCAL: Final = frozenset(("priority", "rules"))
 """Planners for which a situation that repeats is STUCK (`sim.repetition`)."""
 
@@ -207,6 +206,8 @@ class Batch(Lanes):
         """
         if self._beliefs is not None:
             return self._sensed_moves(planner, threads)
+        if planner == "rules":
+            return self._ruled_moves(threads)
         return self._plan(planner, threads)[0]
 
     def least(self, planner: BatchPlanner, *, threads: int = 1) -> NDArray[np.int64]:
@@ -215,8 +216,6 @@ class Batch(Lanes):
         −1 where no way leads there, 0 where a result stands. Raises `ValueError` as `moves` does, and for
         planners that search none.
         """
-        if _known(planner) in _LOCAL:
-            raise ValueError(f"{planner!r} searches no way to the goal")
         return self._plan(planner, threads)[1]
 
     def trials(self, *, threads: int = 1) -> NDArray[np.uint8]:
@@ -317,11 +316,25 @@ class Batch(Lanes):
         """Whether there are pedestrians, or will be."""
         return bool(self._plane_of_boards(WALKERS).any() or (self._wholes[:, PEDESTRIANS] > 0).any())
 
+    def _ruled_moves(self, threads: int) -> NDArray[np.uint8]:
+        """The moves of the rule-based planner, which plans no way."""
+        _some(threads)
+        moves = np.zeros(self._ticks.shape, np.uint8)
+        size = self.layout.columns, self.layout.rows
+
+        def work(part: slice) -> None:
+            lanes = slice(part.start * LANES, min(part.stop * LANES, len(self)))
+            given = self._state[part], self._lanes[part], self._shares[lanes], *size
+            ruled_moves(*given, lanes.stop - lanes.start, moves[lanes])
+
+        self._on_threads(threads, work)
+        return moves[: len(self)]
+
     def _plan(self, planner: BatchPlanner, threads: int) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
         planner = _known(planner)
         _some(threads)
         if planner not in _KERNELS:
-            raise ValueError(f"{planner!r} decides within the tick; use run")
+            raise ValueError(f"{planner!r} searches no way to the goal; use run")
         kernel = _KERNELS[planner]
         size = self._ticks.shape
         moves, least = np.zeros(size, np.uint8), np.zeros(size, np.int64)
@@ -420,8 +433,8 @@ def _sensed(configs: Sequence[Config], after: After) -> bool:
 def _known(planner: str) -> BatchPlanner:
     """The present name of a planner. Raises `ValueError` for one that decides for no batch."""
     found: BatchPlanner = canonical(planner)
-    if found != "priority" and found not in _KERNELS:
-        there = listed(["priority", *_KERNELS])
+    if found not in _LOCAL and found not in _KERNELS:
+        there = listed([*sorted(_LOCAL), *_KERNELS])
         raise ValueError(f"a batch is driven by {there}, not by {planner!r}")
     return found
 

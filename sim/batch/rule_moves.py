@@ -52,8 +52,8 @@ def _row_of(block, plane, lane, row, columns, whole):
 
 
 @compiled
-def ruled_moves(state, lanes, shares, columns, rows, left_edge, right_edge, count, moves, ticks):
-    """For every lane the move of the rule-based planner; `ticks` is not written, since it plans none."""
+def ruled_moves(state, lanes, shares, columns, rows, count, moves):
+    """For every lane the move of the rule-based planner."""
     last_bit = _ONE << np.uint64(columns - 1)
     whole = (last_bit - _ONE) | last_bit
     fixed, movers = np.empty(rows, np.uint64), np.empty(rows, np.uint64)

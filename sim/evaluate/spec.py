@@ -199,6 +199,34 @@ class Evaluation:
             return LIVE_PART
         return min(COMPILED[name] for name in self.planners)
 
+    def work_of(self, part: Part) -> int:
+        """What a part costs, in episodes of the compiled batch: whole parts cost about the same."""
+        followed = part.first % self.episodes < self.detailed
+        return part.count * (self._work_followed if followed else 1)
+
+    @property
+    def work(self) -> int:
+        """What all parts cost."""
+        return max(1, len(self.cases)) * self._work_of_a_case
+
+    def episodes_after(self, work: int) -> int:
+        """How many episodes are done once so much of the work is, from the first one on."""
+        cases, left = divmod(work, self._work_of_a_case)
+        followed = min(self.detailed, self.episodes)
+        costly = followed * self._work_followed
+        done = left // self._work_followed if left < costly else followed + left - costly
+        return cases * self.episodes + done
+
+    @cached_property
+    def _work_followed(self) -> int:
+        """What an episode costs that is followed tick by tick."""
+        return self.part_size // LIVE_PART
+
+    @property
+    def _work_of_a_case(self) -> int:
+        followed = min(self.detailed, self.episodes)
+        return self.episodes + followed * (self._work_followed - 1)
+
     def compiled(self, planner: str) -> bool:
         """Whether the compiled batch drives this planner on these roads."""
         least = COMPILED_FROM if self.axes is None else IN_A_CELL  # a map has many cells

@@ -15,6 +15,7 @@ import pytest
 
 from sim.config import Config
 from sim.evaluate import Evaluation, EvaluationError, Part
+from sim.evaluate.cases import Case
 from sim.evaluate.executor import CancelledError, LocalProcesses
 from sim.evaluate.part import run_part
 from sim.evaluate.rows import join, pack, unpack
@@ -172,3 +173,21 @@ def test_a_lost_process_loses_no_episode(tmp_path: Path) -> None:
         executor.close()
     assert (tmp_path / "lost").exists()
     assert json.dumps(summarize_parts(PAIR, parts, lambda: False)) == json.dumps(evaluate(PAIR))
+
+
+@pytest.mark.parametrize(
+    "spec",
+    [
+        Evaluation(planners=("rules",), episodes=7),
+        Evaluation(planners=("rules", "priority"), episodes=500),
+        Evaluation(planners=("astar",), episodes=6_001),
+        Evaluation(planners=("rules",), episodes=20_100, cases=(Case({}, {}), Case({}, {"potholes": 9}))),
+    ],
+)
+def test_what_parts_cost_tells_how_many_episodes_are_done(spec: Evaluation) -> None:
+    work = episodes = 0
+    for part in spec.parts():
+        assert spec.episodes_after(work) == episodes
+        work, episodes = work + spec.work_of(part), episodes + part.count
+    assert work == spec.work
+    assert spec.episodes_after(work) == episodes
