@@ -27,6 +27,7 @@ from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
 from service.narration.necessity import Necessities
 from service.narration.next import Next
+from service.narration.other_seeds import OtherSeeds
 from service.narration.others import Others
 from service.narration.planner_difference import PlannerDifferences
 from service.narration.planner_facts import PlannerFacts
@@ -53,11 +54,13 @@ from service.narration.world import Worlds
 from service.narration.world_facts import WorldFacts
 from service.narration.world_rules import WorldRules
 from service.sessions.facts import Advised, Answerable, Asked
-from sim.actions import Drive
+from sim.actions import Drive, SetCount
 from sim.explain import QuestionError
+from sim.explain.moments import state_at
 from sim.explain.query import latest_detour
-from sim.explain.sooner import longer_wait, sooner_change, sooner_stop
-from sim.types import Move
+from sim.explain.sooner import longer_wait, sooner_change, sooner_stop, unstopped
+from sim.explain.what_if import moment_of
+from sim.types import Kind, Move
 
 RULES_OF_THE_WORLD: Final = (
     "moves",
@@ -127,6 +130,7 @@ class Answers:
             HumanDrivers(sayings): ("human",),
             SensorsAgain(sayings): ("prevents",),
             PlannerPartings(sayings): ("parting",),
+            OtherSeeds(sayings): ("other_seeds",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
         whys, settings = Whys(sayings), Settings(sayings)
@@ -217,6 +221,32 @@ def _with_longer_wait(asked: Asked) -> Asked:
     return _supposing(asked, *longer_wait(asked.timeline))
 
 
+def _with_no_stop(asked: Asked) -> Asked:
+    """What if it had gone forward in place of its latest stop. Raises `QuestionError`."""
+    return _supposing(asked, *unstopped(asked.timeline))
+
+
+def _to_the_other_side(asked: Asked) -> Asked:
+    """Why, or what if, of the side opposite to the latest move to a side. Raises `QuestionError`."""
+    found = latest_detour(asked.timeline)
+    across, along = found.move.offset
+    other = next(move for move in Move if move.offset == (-across, along))
+    if asked.ask.about == "why":
+        return replace(asked, ask=replace(asked.ask, what=None, move=found.move, instead=other))
+    return _supposing(asked, other, found.tick)
+
+
+def _scaled(asked: Asked) -> Asked:
+    """What if there were half or twice as many things of a kind, from where a drive that is over began."""
+    ask, timeline = asked.ask, asked.timeline
+    kind = Kind(str(ask.kind))
+    change = SetCount(kind=kind, count=0)
+    tick = moment_of(timeline, (change,))
+    count = state_at(timeline, tick).world.counts()[kind]
+    change = replace(change, count=count // 2 if ask.what == "halved" else 2 * count)
+    return replace(asked, ask=replace(ask, what=None, kind=None, change=(change,)))
+
+
 def _supposing(asked: Asked, move: Move, tick: int | None) -> Asked:
     """What if a move had been made at a tick; None for now."""
     if tick is None:
@@ -229,6 +259,10 @@ _OF_AN_EARLIER_MOVE: Final[Mapping[str | None, Callable[[Asked], Asked]]] = {
     "sooner_stop": _with_sooner_stop,
     "sooner_change": _with_sooner_change,
     "longer_wait": _with_longer_wait,
+    "unstopped": _with_no_stop,
+    "other_side": _to_the_other_side,
+    "halved": _scaled,
+    "doubled": _scaled,
 }
 """By `what`: the question as it is asked of a move of this drive."""
 
