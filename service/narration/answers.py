@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Final
 
-from service.actions import Ask
+from service.actions import Ask, dump
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
@@ -181,6 +181,7 @@ class Answers:
     def _answer(self, asked: Asked) -> Json:
         """The answer to a question of the present, or of the tick that it names."""
         asked = _at_its_tick(asked)
+        named = asked.ask.what
         if asked.ask.what in _OF_AN_EARLIER_MOVE:
             try:
                 asked = _OF_AN_EARLIER_MOVE[asked.ask.what](asked)
@@ -195,7 +196,10 @@ class Answers:
         if asked.supposes == "told" and (sure := self._details.sure(asked)) is not None:
             return sure
         known = self._by_what.get(str(ask.what), self._by_question[ask.about])
-        return known.answer(asked)
+        answer = known.answer(asked)
+        if named not in (None, ask.what, "detour"):
+            answer["asked"] = dump((ask,))[0]  # what is asked on after it has no name for that moment
+        return answer
 
 
 def _at_the_detour(asked: Asked) -> Asked:
