@@ -178,7 +178,9 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
         divided = divide(first, last, CONDITIONAL)
         found = divided.failed or _actions(divided, first, last, NO_CHANGE)
         if not isinstance(found, Fragment):
-            of_road = any(value.get("parameter") in ROAD_SIZE for value in found)  # as it is from its beginning
+            of_road = any(
+                value.get("parameter") in ROAD_SIZE for value in found
+            )  # as it is from its beginning
             past = not of_road and _is_past(lattice, (first, last), (start, end))
             if (moved := _had_moved(lattice, (start, end), found)) is not None:
                 return Clause(begin, stop, Filled(_FRAME, []), [moved])
@@ -298,7 +300,7 @@ def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, i
 
 
 def _opening_after(lattice: Lattice, at: int, end: int) -> Edge | None:
-    """The word for "if" after a question; "with" is glue elsewhere, so what says something itself comes first."""
+    """The word for "if" after a question: one that says something itself comes first, as "with" may be glue."""
     past = _past_marks(lattice, at, end)
     for begin in range(at, min(past, end - 1)):
         opening = _longest(lattice, begin, IF)

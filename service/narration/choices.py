@@ -147,9 +147,7 @@ class Choices:
             seconds = in_seconds(self._sayings, found.ticks, state.config)
             told = sum(loss.ticks or 0 for loss in dear[:MOST_LOSSES])
             key = "all" if len(dear) <= MOST_LOSSES else "most" if 2 * told > found.ticks else "some"
-            parts.append(
-                Part(0, self._say("losses", key, seconds=seconds, count=len(dear), listed=listed))
-            )
+            parts.append(Part(0, self._say("losses", key, seconds=seconds, count=len(dear), listed=listed)))
         return within([*parts, Part(2, unknown)])
 
     def _loss(self, loss: Loss, asked: Asked) -> str:

@@ -30,7 +30,9 @@ class OtherSeeds:
             "seeds": list(range(found.first, found.last + 1)),
             "outcomes": [str(each) for each in found.outcomes],
         }
-        return plain(self._sayings, ask, timeline.state, self._text(found, timeline.state.world.outcome)) | facts
+        return (
+            plain(self._sayings, ask, timeline.state, self._text(found, timeline.state.world.outcome)) | facts
+        )
 
     def _text(self, found: Found, here: Outcome) -> str:
         """How many ended in each way, then how this drive has ended."""

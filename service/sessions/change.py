@@ -22,8 +22,8 @@ from service.sessions.facts import Fact, merge_views, parts_with_events, perform
 from service.sessions.latest_decision import LatestDecision
 from service.sessions.outcome import make_entry
 from service.sessions.part import SessionPart
-from service.sessions.permission import as_it_stands
 from service.sessions.perform import perform_actions, tell_outcome
+from service.sessions.permission import as_it_stands
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.started_jobs import forget_jobs, start_jobs
 from service.sessions.transaction import Flag, Transaction, check_step_ticks

@@ -6,14 +6,10 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Final
 
-from sim.actions import Set
 from sim.explain.episode_rollout import story
 from sim.explain.foresight import driving
-from sim.explain.moments import state_at
 from sim.explain.question_error import QuestionError
-from sim.explain.what_if import moment_of
 from sim.plan import traits_of
-from sim.session.edits import apply
 from sim.session.timeline import Timeline
 from sim.types import Outcome
 
@@ -43,10 +39,10 @@ class OtherSeeds:
 
 
 def other_seeds(timeline: Timeline) -> OtherSeeds:
-    """How the planner's drives end on the roads of the next seeds, settings and numbers of things as they are.
+    """How the planner's drives end on the first roads that the next seeds draw from the present settings.
 
-    A person who drives is left out: the planner drives. Raises `QuestionError`: `too_long_again` for a planner
-    that takes long, or with several egos.
+    A person who drives is left out: the planner drives. So is what was put on this road by hand.
+    Raises `QuestionError`: `too_long_again` for a planner that takes long, or with several egos.
     """
     state = timeline.state
     if not traits_of(state.config.planner).quick or len(state.world.avs) > 1:
@@ -54,7 +50,6 @@ def other_seeds(timeline: Timeline) -> OtherSeeds:
     first = state.config.seed + 1
     outcomes = []
     for seed in range(first, first + SEEDS):
-        change = Set(parameter="seed", value=seed)
-        begun = apply(state_at(timeline, moment_of(timeline, (change,))), change).state
+        begun = Timeline(state.config.with_parts(seed=seed)).state
         outcomes.append(story(driving(begun)).outcome)
     return OtherSeeds(str(state.config.planner), first, tuple(outcomes))

@@ -32,7 +32,10 @@ def longer_wait(timeline: Timeline) -> tuple[Move, int | None]:
 
 
 def unstopped(timeline: Timeline) -> tuple[Move, int]:
-    """Forward in place of the latest stop of this drive, where that began. Raises `QuestionError`: `no_stop`."""
+    """Forward in place of the latest stop of this drive, where that began.
+
+    Raises `QuestionError`: `no_stop`.
+    """
     made = _of_this_drive(timeline)
     at = _latest(made, STOPS, "no_stop")
     while at and made[at - 1][1] in STOPS:
