@@ -300,7 +300,7 @@ def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, i
 
 
 def _opening_after(lattice: Lattice, at: int, end: int) -> Edge | None:
-    """The word for "if" after a question: one that says something itself comes first, as "with" may be glue."""
+    """The word for "if" after a question: one that says something itself comes first, "with" may be glue."""
     past = _past_marks(lattice, at, end)
     for begin in range(at, min(past, end - 1)):
         opening = _longest(lattice, begin, IF)

@@ -243,11 +243,10 @@ def _to_the_other_side(asked: Asked) -> Asked:
 def _scaled(asked: Asked) -> Asked:
     """What if there were half or twice as many things of a kind, from where a drive that is over began."""
     ask, timeline = asked.ask, asked.timeline
-    kind = Kind(str(ask.kind))
-    change = SetCount(kind=kind, count=0)
-    tick = moment_of(timeline, (change,))
-    count = state_at(timeline, tick).world.counts()[kind]
-    change = replace(change, count=count // 2 if ask.what == "halved" else 2 * count)
+    assert ask.kind is not None
+    tick = moment_of(timeline, (SetCount(kind=ask.kind, count=0),))
+    count = state_at(timeline, tick).world.counts()[Kind(ask.kind)]
+    change = SetCount(kind=ask.kind, count=count // 2 if ask.what == "halved" else 2 * count)
     return replace(asked, ask=replace(ask, what=None, kind=None, change=(change,)))
 
 
