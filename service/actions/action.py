@@ -36,6 +36,9 @@ from service.actions.questions import (
     PolicyName,
     QuestionName,
     QuestionTraits,
+    ScaleName,
+    SeedsName,
+    SideName,
     SightName,
     SoonerName,
     Term,
@@ -113,6 +116,9 @@ class Ask:
         | MomentName
         | PolicyName
         | SoonerName
+        | SideName
+        | ScaleName
+        | SeedsName
         | SightName
         | WorldName
         | None
@@ -160,7 +166,9 @@ class Ask:
             raise ValueError(
                 "of one sensor, 'weathers' and 'sensor_fault' are asked, and it is one that errs"
             )
-        supposed = self.what in (*get_args(PolicyName), *get_args(SoonerName))
+        if self.about == "what_if" and (self.kind is None) is (self.what in get_args(ScaleName)):
+            raise ValueError("of a kind of things it is asked what if there were half or twice as many")
+        supposed = self.what in _SUPPOSED
         if self.about == "what_if" and sum((self.change is not None, self.move is not None, supposed)) != 1:
             raise ValueError("say exactly one of 'change' and 'move', or what is supposed of the drive")
         if (
@@ -244,6 +252,10 @@ _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "
 _BESIDE_WHAT = ("move", "tick", "until", "ticks", "seconds", "planners", "planner")
 """Keys that some values of `what` need, and others must not have."""
 
+_SUPPOSED = tuple(
+    what for names in (PolicyName, SoonerName, SideName, ScaleName, SeedsName) for what in get_args(names)
+)
+"""What may be supposed of a drive without a change or a move."""
 _CONDITIONS = ("kind", "want", "part", "lane", "parameter", "value", "metric")
 """Keys that narrow down what is counted over a drive."""
 

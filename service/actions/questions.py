@@ -236,10 +236,16 @@ PolicyName = Literal["straight", "stand", "in_lane", "nonstop"]
 """By what rule it is supposed to drive: `straight`: forward in every tick; `stand`: staying in every tick;
 `in_lane`: in one lane; `nonstop`: without staying.
 """
-SoonerName = Literal["sooner_stop", "sooner_change", "longer_wait"]
-"""What is supposed of this drive so far: its latest stop or lane change a tick sooner, or that stop
-a tick longer.
+SoonerName = Literal["sooner_stop", "sooner_change", "longer_wait", "unstopped"]
+"""What is supposed of this drive so far: its latest stop or lane change a tick sooner, that stop a tick
+longer, or forward in its place.
 """
+SideName = Literal["other_side"]
+"""The side opposite to that of the latest move to the side or diagonally."""
+ScaleName = Literal["halved", "doubled"]
+"""How many things of a kind there are supposed to be: half as many, or twice as many."""
+SeedsName = Literal["other_seeds"]
+"""Roads that are drawn alike from other seeds."""
 DetailName = Literal["shorter", "longer", "why", "before", "after"]
 """How the last explanation is wanted again; before and after are the decisions next to it."""
 Choosable = Literal["view", "preference", "road", "layout"]
@@ -330,7 +336,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "why": QuestionTraits(("move", "instead", "what", "tick", "ticks", "seconds"), runs_episodes=True),
     "why_not": QuestionTraits(("move", "what", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
     "what_if": QuestionTraits(
-        ("change", "move", "what", "tick", "ticks", "seconds", "count"), runs_episodes=True
+        ("change", "move", "what", "kind", "tick", "ticks", "seconds", "count"), runs_episodes=True
     ),
     "next": QuestionTraits(("kind",), runs_episodes=True),
     "scene": QuestionTraits(("kind", "count")),
@@ -370,8 +376,13 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
 }
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
-    **dict.fromkeys(("why", "why_not"), get_args(MomentName)),
-    "what_if": (*get_args(MomentName), *get_args(PolicyName), *get_args(SoonerName)),
+    "why": (*get_args(MomentName), *get_args(SideName)),
+    "why_not": get_args(MomentName),
+    "what_if": tuple(
+        what
+        for names in (MomentName, PolicyName, SoonerName, SideName, ScaleName, SeedsName)
+        for what in get_args(names)
+    ),
     "history": get_args(HistoryName),
     "other": get_args(OtherName),
     "outlook": get_args(OutlookName),
@@ -400,7 +411,10 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),
     **dict.fromkeys(get_args(PolicyName), (frozenset(), frozenset(("tick",)))),
-    **dict.fromkeys(get_args(SoonerName), (frozenset(),)),
+    **dict.fromkeys(
+        (*get_args(SoonerName), *get_args(SideName), *get_args(ScaleName), *get_args(SeedsName)),
+        (frozenset(),),
+    ),
     **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
     **dict.fromkeys(
         ("here", "compare"),

@@ -6,12 +6,22 @@ Completion searches them, and the guide to the language lists them.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 from typing import Any, get_args
 
 from pydantic import ValidationError
 
 from service.actions import QUESTIONS, WHATS, ChatKind, Choosable, MetricName, Term, ViewName, load
-from service.actions.questions import DetailName, PartName, PolicyName, SoonerName, WantName
+from service.actions.questions import (
+    DetailName,
+    PartName,
+    PolicyName,
+    ScaleName,
+    SeedsName,
+    SideName,
+    SoonerName,
+    WantName,
+)
 from service.grammar.sentences import Sentences, Unsayable
 from service.styles import styles
 from sim.actions import (
@@ -175,8 +185,11 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "metrics", "metric": metric}
     yield {"do": "ask", "about": "what_if", "change": [{"do": "add", "kind": "pothole", "count": 5}]}
     yield {"do": "ask", "about": "what_if", "change": [{"do": "drive", "move": "stay"}], "count": 5}
-    for what in (*get_args(PolicyName), *get_args(SoonerName)):
-        yield {"do": "ask", "about": "what_if", "what": what}
+    for names in (PolicyName, SoonerName, SideName, SeedsName):
+        yield from ({"do": "ask", "about": "what_if", "what": what} for what in get_args(names))
+    for what, kind in product(get_args(ScaleName), PLACEABLE):
+        yield {"do": "ask", "about": "what_if", "what": what, "kind": kind}
+    yield {"do": "ask", "about": "why", "what": "other_side"}
     for parameter in get_args(Parameter):
         yield {"do": "ask", "about": "setting", "parameter": parameter}
         for value in CHOICES.get(parameter, ()):

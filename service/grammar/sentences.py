@@ -258,7 +258,8 @@ class Sentences(RuleSentences):
                 move = "" if ask.move is None else self._word(form, ask.move)
                 if ask.tick is not None:
                     raise Unsayable("a way of driving from a tick on")
-                return self._say(f"{ask.about}_{ask.what}", move=move)
+                things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
+                return self._say(f"{ask.about}_{ask.what}", move=move, things=things)
             case "why" | "why_not":
                 key: str = ask.about
                 if ask.move is not None and ask.about == "why":

@@ -27,6 +27,7 @@ HAD_BEEN = "had_been"
 """Concept of words that suppose something of a past moment: "had not been there"."""
 SUPPOSED_DRIVE = "supposed_drive"
 """Concept of whole conditions that suppose a way of driving: "you never change lanes"."""
+ROAD_SIZE = frozenset({"columns", "rows"})
 TICK = "tick"
 MEANS = "means"
 
@@ -177,7 +178,10 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
         divided = divide(first, last, CONDITIONAL)
         found = divided.failed or _actions(divided, first, last, NO_CHANGE)
         if not isinstance(found, Fragment):
-            past = _is_past(lattice, (first, last), (start, end))
+            of_road = any(
+                value.get("parameter") in ROAD_SIZE for value in found
+            )  # as it is from its beginning
+            past = not of_road and _is_past(lattice, (first, last), (start, end))
             if (moved := _had_moved(lattice, (start, end), found)) is not None:
                 return Clause(begin, stop, Filled(_FRAME, []), [moved])
             clause = _what_if(begin, stop, found, past=past)
@@ -195,7 +199,8 @@ def _drive_supposed(lattice: Lattice, start: int, end: int) -> dict[str, Any] | 
     found = next((edge for at in begins if (edge := _longest(lattice, at, SUPPOSED_DRIVE))), None)
     if found is None:
         return None
-    asked = {"do": "ask", "about": WHAT_IF, "what": found.sense.value}
+    said = found.sense.value
+    asked = {"do": "ask", "about": WHAT_IF} | (said if isinstance(said, dict) else {"what": said})
     if found.sense.value in get_args(MomentName):  # instead of that move
         asked |= {"move": Move.FORWARD.value}
     rest = _past_marks(lattice, found.end, end)
@@ -253,11 +258,7 @@ def _past_glue(lattice: Lattice, at: int, end: int) -> int:
         if any(_longest(lattice, at, concept) for concept in (WHAT_IF, IF, TEACH)):
             return at
         asked = _longest(lattice, at, THEN_WHAT)
-        if (
-            asked is not None
-            and (then := _past_marks(lattice, asked.end, end)) < end
-            and _longest(lattice, then, IF) is not None
-        ):
+        if asked is not None and _opening_after(lattice, asked.end, end) is not None:
             return at
         passed = [edge.end for edge in lattice.edges[at] if edge.sense.concept in (GLUE, SEPARATOR)]
         if not passed:
@@ -282,9 +283,8 @@ def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, i
     )
     for edge in lattice.edges[start]:
         if edge.sense.concept == THEN_WHAT:
-            at = _past_marks(lattice, edge.end, end)
-            opening = _longest(lattice, at, IF) if at < end else None
-            if opening is not None and opening.end < end:
+            opening = _opening_after(lattice, edge.end, end)
+            if opening is not None and (opening.end < end or opening.sense.value == WITHOUT):
                 yield _supposed_from(opening), end, end
     for edge in opened:
         if edge.sense.concept == WHAT_IF and edge.end < end:
@@ -297,6 +297,16 @@ def _conditions(lattice: Lattice, start: int, end: int) -> Iterator[tuple[int, i
                 yield _supposed_from(edge), at, end
             elif _ends_part(lattice, asked.end, end):
                 yield _supposed_from(edge), at, asked.end
+
+
+def _opening_after(lattice: Lattice, at: int, end: int) -> Edge | None:
+    """The word for "if" after a question: one that says something itself comes first, "with" may be glue."""
+    past = _past_marks(lattice, at, end)
+    for begin in range(at, min(past, end - 1)):
+        opening = _longest(lattice, begin, IF)
+        if opening is not None and opening.sense.value == WITHOUT:
+            return opening
+    return _longest(lattice, past, IF) if past < end else None
 
 
 def _supposed_from(opening: Edge) -> int:

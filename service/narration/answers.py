@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Final
 
-from service.actions import Ask
+from service.actions import Ask, dump
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
@@ -28,6 +28,7 @@ from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
 from service.narration.necessity import Necessities
 from service.narration.next import Next
+from service.narration.other_seeds import OtherSeeds
 from service.narration.others import Others
 from service.narration.planner_difference import PlannerDifferences
 from service.narration.planner_facts import PlannerFacts
@@ -56,11 +57,13 @@ from service.narration.world import Worlds
 from service.narration.world_facts import WorldFacts
 from service.narration.world_rules import WorldRules
 from service.sessions.facts import Advised, Answerable, Asked
-from sim.actions import Drive
+from sim.actions import Drive, SetCount
 from sim.explain import QuestionError
+from sim.explain.moments import state_at
 from sim.explain.query import latest_detour
-from sim.explain.sooner import longer_wait, sooner_change, sooner_stop
-from sim.types import Move
+from sim.explain.sooner import longer_wait, sooner_change, sooner_stop, unstopped
+from sim.explain.what_if import moment_of
+from sim.types import Kind, Move
 
 RULES_OF_THE_WORLD: Final = (
     "moves",
@@ -146,6 +149,7 @@ class Answers:
             NearestBelieved(sayings): ("belief",),
             SessionFacts(sayings): FACTS_OF_THE_SESSION,
             PlannerPartings(sayings): ("parting",),
+            OtherSeeds(sayings): ("other_seeds",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
         whys, settings = Whys(sayings), Settings(sayings)
@@ -196,6 +200,7 @@ class Answers:
     def _answer(self, asked: Asked) -> Json:
         """The answer to a question of the present, or of the tick that it names."""
         asked = _at_its_tick(asked)
+        named = asked.ask.what
         if asked.ask.what in _OF_AN_EARLIER_MOVE:
             try:
                 asked = _OF_AN_EARLIER_MOVE[asked.ask.what](asked)
@@ -210,7 +215,10 @@ class Answers:
         if asked.supposes == "told" and (sure := self._details.sure(asked)) is not None:
             return sure
         known = self._by_what.get(str(ask.what), self._by_question[ask.about])
-        return known.answer(asked)
+        answer = known.answer(asked)
+        if named not in (None, ask.what, "detour"):
+            answer["asked"] = dump((ask,))[0]  # what is asked on after it has no name for that moment
+        return answer
 
 
 def _at_the_detour(asked: Asked) -> Asked:
@@ -236,6 +244,31 @@ def _with_longer_wait(asked: Asked) -> Asked:
     return _supposing(asked, *longer_wait(asked.timeline))
 
 
+def _with_no_stop(asked: Asked) -> Asked:
+    """What if it had gone forward in place of its latest stop. Raises `QuestionError`."""
+    return _supposing(asked, *unstopped(asked.timeline))
+
+
+def _to_the_other_side(asked: Asked) -> Asked:
+    """Why, or what if, of the side opposite to the latest move to a side. Raises `QuestionError`."""
+    found = latest_detour(asked.timeline)
+    across, along = found.move.offset
+    other = next(move for move in Move if move.offset == (-across, along))
+    if asked.ask.about == "why":
+        return replace(asked, ask=replace(asked.ask, what=None, move=found.move, instead=other))
+    return _supposing(asked, other, found.tick)
+
+
+def _scaled(asked: Asked) -> Asked:
+    """What if there were half or twice as many things of a kind, from where a drive that is over began."""
+    ask, timeline = asked.ask, asked.timeline
+    assert ask.kind is not None
+    tick = moment_of(timeline, (SetCount(kind=ask.kind, count=0),))
+    count = state_at(timeline, tick).world.counts()[Kind(ask.kind)]
+    change = SetCount(kind=ask.kind, count=count // 2 if ask.what == "halved" else 2 * count)
+    return replace(asked, ask=replace(ask, what=None, kind=None, change=(change,)))
+
+
 def _supposing(asked: Asked, move: Move, tick: int | None) -> Asked:
     """What if a move had been made at a tick; None for now."""
     if tick is None:
@@ -248,6 +281,10 @@ _OF_AN_EARLIER_MOVE: Final[Mapping[str | None, Callable[[Asked], Asked]]] = {
     "sooner_stop": _with_sooner_stop,
     "sooner_change": _with_sooner_change,
     "longer_wait": _with_longer_wait,
+    "unstopped": _with_no_stop,
+    "other_side": _to_the_other_side,
+    "halved": _scaled,
+    "doubled": _scaled,
 }
 """By `what`: the question as it is asked of a move of this drive."""
 

@@ -145,8 +145,9 @@ class Choices:
         if dear:
             listed = self._sayings.listed([self._loss(loss, asked) for loss in dear[:MOST_LOSSES]])
             seconds = in_seconds(self._sayings, found.ticks, state.config)
-            key = "all" if len(dear) <= MOST_LOSSES else "most"
-            parts.append(Part(0, self._say("losses", key, seconds=seconds, listed=listed)))
+            named = sum(loss.ticks or 0 for loss in dear[:MOST_LOSSES])
+            key = "all" if len(dear) <= MOST_LOSSES else "most" if 2 * named > found.ticks else "some"
+            parts.append(Part(0, self._say("losses", key, seconds=seconds, count=len(dear), listed=listed)))
         return within([*parts, Part(2, unknown)])
 
     def _loss(self, loss: Loss, asked: Asked) -> str:

@@ -15,7 +15,10 @@ WANTED: Final[tuple[Wanted, ...]] = ("any", "what", "number", "free", "taken")
 LANE: Final = "lane"
 """Before `left`, `right` or `own`: the lane beside the ego, or its own."""
 LANES: Final = "lanes"
-"""Before what is asked of all lanes: `free`, `taken`, `best`, or `with` things of a kind."""
+"""Before what is asked of all lanes: `free`, `taken`, `best`, `with` things of a kind, `beside` the ego, or
+`sides`."""
+SIDES: Final = "sides"
+"""Before the side on which more is supposed, or `both`."""
 WITHIN: Final = "within"
 """Before a number of rows."""
 
@@ -54,6 +57,11 @@ class SceneAsked:
     def lane(self) -> str | None:
         """`left`, `right` or `own`, where one of these lanes is meant."""
         return self.words[1] if self.words[:1] == (LANE,) else None
+
+    @property
+    def more_on(self) -> str | None:
+        """`left`, `right` or `both`, where the sides of the road are compared."""
+        return self.words[2] if self.words[:2] == (LANES, SIDES) else None
 
     @property
     def lanes(self) -> str | None:

@@ -41,6 +41,8 @@ class ScenePlaces:
 
     def answer(self, about: SceneAsked, kind: Kind | None) -> tuple[Scene, str]:
         """What is there of the scene, and the answer."""
+        if about.more_on is not None:
+            return self._scene, self._sides_compared(kind, about.more_on)
         if about.lanes is not None:
             return self._scene, self._lanes(about.lanes, kind)
         if about.place.get("nearest"):
@@ -158,6 +160,8 @@ class ScenePlaces:
             count = self._told.count(len(things))
             return self._say("lanes_with", lanes=self._numbers(lanes), count=count, things=noun)
         room = {lane: self._room(lane) for lane in range(1, self._columns + 1)}
+        if asked == "beside":
+            return self._next_to(room)
         free = [lane for lane, (beside, first) in room.items() if not beside and first is None]
         if asked == "taken":
             return self._lanes_taken(room)
@@ -167,6 +171,32 @@ class ScenePlaces:
             told = [Part(0, self._say("lanes_none_free"))] if asked == "free" else []
             told.append(Part(0, self._most_room(room)))
         return within([*told, Part(1, self._say("lanes_change", own=self._own))])
+
+    def _next_to(self, room: Mapping[int, tuple[bool, Detection | None]]) -> str:
+        """The lanes beside the ego that are free level with it, each with what comes first ahead in it."""
+        beside = [lane for lane in (self._own - 1, self._own + 1) if lane in room]
+        free = [lane for lane in beside if not room[lane][0]]
+        if not free:
+            return self._say("next_to_none", no=self._told.answer("disagree"))
+        each = []
+        for lane in free:
+            first, name = room[lane][1], self._say("lane_name", self._beside(lane), lane=lane)
+            metres = "" if first is None else self._told.number(first.rows * self._cell_m)
+            key = "next_to_clear" if first is None else "next_to_until"
+            each.append(self._say(key, name=name, metres=metres))
+        listed = self._told.joined(each)
+        return self._say("next_to", yes=self._told.answer("agree"), lanes=listed)
+
+    def _sides_compared(self, kind: Kind | None, more_on: str) -> str:
+        """How many things are seen in lanes on each side; yes or no first where one side is named."""
+        things = self._scene.of(kind)
+        left, right = (sum(map(_SIDES[side], things)) for side in ("left", "right"))
+        noun = self._say("any_thing") if kind is None else self._told.noun(kind, 2)
+        told = self._say("sides", left=left, right=right, own=len(things) - left - right, things=noun)
+        if more_on == "both":
+            return told
+        so = left > right if more_on == "left" else right > left
+        return f"{self._told.answer('agree' if so else 'disagree')}. {told}"
 
     def _lanes_taken(self, room: Mapping[int, tuple[bool, Detection | None]]) -> str:
         beside = [lane for lane, (taken, _) in room.items() if taken]

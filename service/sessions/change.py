@@ -23,6 +23,7 @@ from service.sessions.latest_decision import LatestDecision
 from service.sessions.outcome import make_entry
 from service.sessions.part import SessionPart
 from service.sessions.perform import perform_actions, tell_outcome
+from service.sessions.permission import as_it_stands
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.started_jobs import forget_jobs, start_jobs
 from service.sessions.transaction import Flag, Transaction, check_step_ticks
@@ -100,6 +101,7 @@ class Changes(SessionPart):
             preconditions.check(session.sequence)
             if not isinstance(utterance, Utterance):
                 utterance = utterance(session.timeline)
+            utterance = as_it_stands(utterance, session.timeline)
             session.ticks.hold()
             try:
                 transaction = session.begin_transaction(utterance.language)

@@ -31,6 +31,18 @@ def longer_wait(timeline: Timeline) -> tuple[Move, int | None]:
     return Move.STAY, made[at + 1][0] if at + 1 < len(made) else None
 
 
+def unstopped(timeline: Timeline) -> tuple[Move, int]:
+    """Forward in place of the latest stop of this drive, where that began.
+
+    Raises `QuestionError`: `no_stop`.
+    """
+    made = _of_this_drive(timeline)
+    at = _latest(made, STOPS, "no_stop")
+    while at and made[at - 1][1] in STOPS:
+        at -= 1
+    return Move.FORWARD, made[at][0]
+
+
 def _before_the_latest(timeline: Timeline, moves: Collection[Move], code: str) -> tuple[Move, int]:
     """The latest of these moves, and the tick before the first of those that are made like it in a row."""
     made = _of_this_drive(timeline)

@@ -125,8 +125,8 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         named.pop("what", None)
     if about in ("scene", "other"):  # of one kind, or the nearest of it; of where another one goes
         del named["count"]
-    if about == "what_if":  # a move in the past, or a change
-        del named["move"]
+    if about == "what_if":  # a move in the past, or a change, or more or fewer of a kind
+        del named["move"], named["kind"]
     if about == "outlook":  # seconds and ticks belong to what comes next
         named.pop("ticks", None)
     (asked,) = load([{"do": "ask", "about": about, **named}])

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from service.actions import Ask
+from service.narration.choices import MOST_LOSSES
 from service.narration.narrator import Narrator
 from service.sessions.facts import Asked
 from sim.config import Config
@@ -159,3 +160,19 @@ def test_one_clock_is_read_in_an_answer(code: str, what: str) -> None:
     told = [answer(driven(20, seed=seed, potholes=25), "history", what, code)["text"] for seed in range(4)]
     assert all(" s" in text for text in told)
     assert [text for text in told if "tick" in text.lower()] == []
+
+
+def test_the_moves_told_are_most_of_the_time_lost_only_where_they_are() -> None:
+    said = set()
+    for seed in range(30):
+        planner = ("rules", "priority")[seed % 2]
+        timeline = driven(60, seed=seed, potholes=(10, 25)[seed % 4 > 1], vehicles=20, planner=planner)
+        found = losses(timeline)
+        dear = [loss.ticks for loss in found.found if loss.ticks is not None]
+        text = answer(timeline, "history", "losses")["text"]
+        if len(dear) > MOST_LOSSES:
+            most = 2 * sum(dear[:MOST_LOSSES]) > found.ticks
+            assert ("most of it here" in text) is most, text
+            assert (f"at {len(dear)} moves" in text) is not most, text
+            said.add(most)
+    assert said == {True, False}

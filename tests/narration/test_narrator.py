@@ -214,5 +214,6 @@ def test_things_taken_away_one_after_another_are_told_at_once() -> None:
 def test_what_is_asked_has_a_name_of_its_own_as_answerers_are_found_by_it() -> None:
     names = Counter(what for about in WHATS for what in WHATS[about])
     assert {what for what, count in names.items() if count > 1} == {
-        "detour"
+        "detour",
+        "other_side",
     }  # answered by its kind of question

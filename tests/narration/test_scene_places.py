@@ -51,6 +51,10 @@ def answer(run: SimState, supposes: str, kind: Any = None) -> dict[str, Any]:
         ("lanes taken", None, "Taken level with me: lane 3. Something is ahead in lanes 1 and 4."),
         ("lanes with", "pothole", "In lanes 1 and 3: I see two potholes there."),
         ("lanes with", "barrier", "In none"),
+        ("lanes beside", None, "Yes, level with me: lane 5 on my right (nothing seen ahead in it)."),
+        ("lanes sides left", "pothole", "Yes. Of potholes I see 2 on my left, 0 on my right and 0 in my own"),
+        ("lanes sides right", "pothole", "No. Of potholes I see 2 on my left"),
+        ("lanes sides both", "vehicle", "Of cars I see 0 on my left, 0 on my right and 1 in my own lane."),
         ("clear", None, "Yes."),
         ("anything", None, "Yes."),
     ],
@@ -93,3 +97,29 @@ def test_a_free_lane_holds_nothing_ahead() -> None:
         taken = {own + thing["lanes"] for thing in seen if thing["rows"] >= 0}
         assert not named & taken
         assert named | taken == set(range(1, run.world.road.columns + 1))
+
+
+@pytest.mark.parametrize("kind", ["vehicle", "pothole", "pedestrian"])
+def test_sides_are_compared_by_what_is_really_in_their_lanes(kind: str) -> None:
+    agreed = set()
+    for run in (timeline.state for timeline in moments(40)):
+        column, _ = run.world.road.cell(run.world.av)
+        lanes = [each.cell[0] for each in run.world.things() if each.kind == kind]
+        left, right = sum(each < column for each in lanes), sum(each > column for each in lanes)
+        own = len(lanes) - left - right
+        for side, more in (("left", left > right), ("right", right > left)):
+            told = answer(run, f"lanes sides {side}", kind)["text"]
+            assert told.startswith("Yes." if more else "No."), told
+            assert f"{left} on my left, {right} on my right and {own} in my own lane" in told
+            agreed.add(more)
+    assert agreed == {True, False}
+
+
+def test_a_lane_beside_is_free_where_nothing_is_level_with_the_ego() -> None:
+    for run in (timeline.state for timeline in moments(40)):
+        column, row = run.world.road.cell(run.world.av)
+        taken = {each.cell for each in run.world.things()}
+        told = answer(run, "lanes beside")["text"]
+        for lane in (column - 1, column + 1):
+            free = 0 <= lane < run.world.road.columns and (lane, row) not in taken
+            assert (f"lane {lane + 1} on my" in told) is free, told
