@@ -88,7 +88,15 @@ class SlotWords:
             alone = (STAY,) if self._names_a_side(lattice) else (STAY, FORWARD)
             moves = (move for move in alone if any(word in self._data[move] for word in words))
             slots |= next((self._data["moves"][move] for move in moves), {})
+        elif "instead" not in binding and self._goes_straight_after(words):
+            # "I went left, what if I had gone straight?" is of two moves, and not of the first alone.
+            binding.add("instead")
+            slots["instead"] = self._data["moves"][FORWARD]["going"]
         return Question(words, slots, frozenset(binding - _LOOSE))
+
+    def _goes_straight_after(self, words: Sequence[str]) -> bool:
+        """Whether straight on is named behind a move."""
+        return any(word in self._data[FORWARD] for word in words[words.index("<move>") :])
 
     def _names_a_side(self, lattice: Lattice) -> bool:
         aside = self._data["moves"].keys() - {FORWARD, STAY}

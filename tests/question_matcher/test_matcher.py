@@ -216,3 +216,12 @@ def test_words_that_no_answer_is_for_are_unknown():
         for word in words.question(text).words
     }
     assert answered <= weights.words
+
+
+def test_a_move_before_straight_on_is_one_of_two(language: Language) -> None:
+    words = SlotWords(language, FOLDER)
+    two = words.question("At tick 10 I went left, what would have happened if I had gone straight?")
+    assert (two.slots["gone"], two.slots["instead"]) == ("gone left", "going forward")
+    assert {"move", "instead"} <= two.binding
+    one = words.question("what would have happened if I had gone left at tick 10?")
+    assert "instead" not in one.binding
