@@ -69,12 +69,12 @@ async def keep(parts: Mapping[Part, bytes]) -> float:
     return taken
 
 
-def main(priority: int = 100_000, astar: int = 5_000) -> None:
+def main(priority: int = 100_000, rules: int = 20_000, astar: int = 5_000) -> None:
     """Print a row for each planner."""
     cores = os.cpu_count() or 1
     head = f"{'planner':<10}{'episodes':>12}{'processes':>11}{'seconds':>9}{'episodes/s':>12}"
     print(f"{head}{'processor s':>13}{'of one, a second':>18}{'kept in s':>11}")
-    for planner, episodes in (("priority", priority), ("astar", astar)):
+    for planner, episodes in (("priority", priority), ("rules", rules), ("astar", astar)):
         spec = Evaluation(planners=(planner,), episodes=episodes)
         for processes in dict.fromkeys((1, cores)):
             seconds, busy, parts = run(spec, processes)
@@ -87,5 +87,6 @@ def main(priority: int = 100_000, astar: int = 5_000) -> None:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--priority", type=int, default=100_000, help="episodes with priority")
+    parser.add_argument("--rules", type=int, default=20_000, help="episodes with rules")
     parser.add_argument("--astar", type=int, default=5_000, help="episodes with astar")
     main(**vars(parser.parse_args()))
