@@ -403,7 +403,7 @@ class Sentences(RuleSentences):
         key += "" if ask.seconds is None else "_seconds"
         key += "" if ask.kind is None else "_kind"
         key += "" if ask.value is None else "_sensor"
-        sensor = "" if ask.value is None else self._value("sensor", ask.value)
+        sensor = "" if ask.value is None else self._value("sensor", str(ask.value))
         seconds = "" if ask.seconds is None else number(ask.seconds)
         things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
         move = "" if ask.move is None else self._word("asked", ask.move)

@@ -222,7 +222,7 @@ def test_work_is_counted_alike(name: str) -> None:
 
 def test_a_batch_says_whom_it_is_driven_by() -> None:
     batch = Batch([Config(rows=5)])
-    with pytest.raises(ValueError, match="priority, bfs, weighted, astar or dijkstra"):
+    with pytest.raises(ValueError, match="priority, rules, bfs, weighted, astar or dijkstra"):
         batch.run(1, f"{PREFIX}priority")  # type: ignore[arg-type]
 
 
