@@ -1,10 +1,12 @@
 """`Prefer: respond-async` (RFC 7240): a long answer is made in the background, and fetched when it is there.
 
-Without the header, and where the answer takes less than a second, the request is answered as it ever was.
+Without the header, and where the answer takes less than a second, the request is answered as it ever was. That
+is an estimate: where the answer is not there after some seconds, since the machine is busy, 202 follows.
 """
 
 from __future__ import annotations
 
+import asyncio
 import re
 from collections.abc import Awaitable, Callable
 from typing import Annotated, Any, Final
@@ -28,6 +30,9 @@ Prefer = Annotated[
     ),
 ]
 
+PATIENCE_S: Final = 5.0
+"""How long an answer is waited for whose estimate is short; well below the read timeout of usual clients."""
+
 ACCEPTED: Final[dict[int | str, dict[str, Any]]] = {
     202: {
         "model": schemas.LongAnswer,
@@ -47,12 +52,30 @@ async def respond_async(
     make: Callable[[], Awaitable[Response]],
 ) -> Response:
     """The answer, or 202 where it takes long and the client prefers that. Raises what `make` raises."""
-    if units < LONG_UNITS or not _prefers_async(request):
+    if not _prefers_async(request):
         return await make()
     here.manager.work.check(units)
     answer = here.long_answers.start(what, session_id, client_of(request.scope), make)
+    if units < LONG_UNITS and await _made_soon(here, answer):
+        if answer.problem is not None:
+            raise answer.problem
+        assert answer.result is not None
+        return answer.result
     headers = {"Location": _path(answer), "Preference-Applied": RESPOND_ASYNC, "Retry-After": "1"}
     return json_response(long_answer_json(answer), 202, headers)
+
+
+async def _made_soon(here: Context, answer: LongAnswer[Response]) -> bool:
+    """Whether an answer is made within `PATIENCE_S`; then it is not kept, nor for a request that ended."""
+    keep = False
+    try:
+        if answer.task is not None:
+            await asyncio.wait((answer.task,), timeout=PATIENCE_S)
+        keep = answer.state == "running"
+    finally:
+        if not keep:
+            here.long_answers.delete(answer.of, answer.id)
+    return not keep
 
 
 def long_answer_json(answer: LongAnswer[Response]) -> dict[str, Any]:

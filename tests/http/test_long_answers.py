@@ -13,6 +13,7 @@ from service.http import prefer
 from service.http.routes import regret
 from service.problems import NotAvailable
 from service.work.executor import WorkExecutor
+from service.work.long_answers import MOST_KEPT
 from service.work.progress import HEARD
 from tests.support.service import Service
 
@@ -76,6 +77,24 @@ async def test_a_long_answer_is_the_one_that_is_given_at_once(service: Service) 
 async def test_what_is_quick_is_answered_at_once_and_so_is_who_prefers_nothing(service: Service) -> None:
     path = f"{await stepped(service)}/regret"
     assert (await service.client.get(path, headers=ASYNC)).status_code == 200
+
+
+async def test_what_takes_longer_than_was_estimated_is_answered_202(
+    service: Service, judging: asyncio.Event, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(prefer, "PATIENCE_S", 0.0)
+    path = f"{await stepped(service)}/regret"
+    accepted = await service.client.get(path, headers=ASYNC)
+    assert accepted.status_code == 202
+    judging.set()
+    told = await waited(service, accepted.json()["links"]["self"], "done")
+    assert (await service.client.get(told["links"]["result"])).status_code == 200
+
+
+async def test_a_quick_answer_is_not_kept(service: Service) -> None:
+    path = f"{await stepped(service)}/regret"
+    for _ in range(MOST_KEPT + 1):
+        assert (await service.client.get(path, headers=ASYNC)).status_code == 200
 
 
 @pytest.mark.usefixtures("all_long")
