@@ -1,7 +1,7 @@
 """`Prefer: respond-async` (RFC 7240): a long answer is made in the background, and fetched when it is there.
 
-Without the header, and where the answer takes less than a second, the request is answered as it ever was. That
-is an estimate: where the answer is not there after some seconds, since the machine is busy, 202 follows.
+Without the header, and where the answer takes less than a second, the request is answered as it ever was.
+That is an estimate: where the answer is not there after some seconds, since the machine is busy, 202 follows.
 """
 
 from __future__ import annotations
