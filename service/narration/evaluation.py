@@ -147,11 +147,11 @@ class EvaluationWords:
         return self._sayings.planner(name)
 
     def percent(self, share: float | None, digits: int = 1) -> str:
-        """A share in per cent, with no more digits than it takes; none and all are said only where it is so."""
+        """A share in per cent, with no more digits than it takes; 0 and 100 only where it is none or all."""
         if share is None:
             return "–"
         told = float(f"{100 * share:.{digits}f}")
-        while told in (0.0, 100.0) and MOST_DIGITS > digits and 0.0 < share < 1.0:
+        while told in (0.0, 100.0) and digits < MOST_DIGITS and 0.0 < share < 1.0:
             digits += 1
             told = float(f"{100 * share:.{digits}f}")
         return self._sayings.number(told)
