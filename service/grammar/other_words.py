@@ -38,6 +38,7 @@ _READ, _SCALE, _LASTS, _BACK, _ASK, _WHY = "read", "scale", "lasts", "back", "as
 _OUTCOMES = frozenset((_READ, _SCALE, _LASTS, _BACK, _ASK, _WHY))
 _KINDS, _ONE = "kinds", "one"
 """Slots for a kind of thing, by its word for many or for one."""
+_QUESTION_MARK = "?"
 _NEW_ROAD = frozenset(("columns", "rows", "seed", "traffic", "playback_speed"))
 """Settings that are not as before where they are set back: the road is another one, or no rule sets them."""
 
@@ -319,9 +320,15 @@ class _Reading:
         size = len(self._tokens)
         for entry, slots in self._matches(0, size, (_WHY,)):
             return self._filled(str(entry.value), slots)
+        unknown = self._refused.unparsed
+        if self._text.rstrip().endswith(_QUESTION_MARK):
+            return None  # what is asked is for whoever answers questions
         starts = [0, *sorted(following for _, following in self._ends(0) if following < size)]
         for start in starts:
             end = min((at for at, _ in self._ends(start)), default=size)
+            said = self._written(start, end)
+            if not unknown or any(phrase not in said for phrase in unknown):
+                continue  # something else was not understood either
             for entry, slots in self._matches(start, end, (_WHY,)):
                 return self._filled(str(entry.value), slots)
         return None
