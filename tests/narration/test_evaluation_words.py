@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from service.evaluations.named import state_as_road
+from service.evaluations.report.document import make_document
 from service.narration import evaluation_words
 from sim.config import Config
 from sim.evaluate import Evaluation
@@ -16,12 +17,21 @@ from sim.state import SimState
 def test_of_runs_that_are_all_the_same_no_interval_is_told(language: str) -> None:
     config = Config(seed=9)
     spec = Evaluation(
-        planners=("astar",), episodes=3, config=config, seed=9, world=state_as_road(SimState.start(config))
+        planners=("astar", "bfs"),
+        episodes=3,
+        config=config,
+        seed=9,
+        world=state_as_road(SimState.start(config)),
     )
     summary = evaluate(spec)
     assert summary["alike"]
     told = " ".join(evaluation_words(language).paragraphs(spec, summary))
     assert "95" not in told
+    words = evaluation_words(language)
+    document = make_document(spec, summary, words, language)
+    assert not document.plots
+    cells = {cell.text for table in document.tables for row in table.rows for cell in row}
+    assert not cells & {words.label("interval"), words.label("p")}
 
 
 @pytest.mark.parametrize(
