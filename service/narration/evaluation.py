@@ -24,6 +24,8 @@ REPORT: Final = "/api/v1/evaluations/{id}/report"
 """Where the report of an evaluation is."""
 LEAST_P: Final = 1e-4
 """A probability below this is told as less."""
+MOST_DIGITS: Final = 4
+"""After the point, of a share in per cent that is nearly none or nearly all."""
 ALL, MOST, HALF = 1.0, 0.8, 0.5
 """Shares of failures from which a way of failing is told, and how."""
 
@@ -145,10 +147,14 @@ class EvaluationWords:
         return self._sayings.planner(name)
 
     def percent(self, share: float | None, digits: int = 1) -> str:
-        """A share in per cent, with no more digits than it takes."""
+        """A share in per cent, with no more digits than it takes; 0 and 100 only where it is none or all."""
         if share is None:
             return "–"
-        return self._sayings.number(float(f"{100 * share:.{digits}f}"))
+        told = float(f"{100 * share:.{digits}f}")
+        while told in (0.0, 100.0) and digits < MOST_DIGITS and 0.0 < share < 1.0:
+            digits += 1
+            told = float(f"{100 * share:.{digits}f}")
+        return self._sayings.number(told)
 
     def number(self, value: float | None, spec: str = ".2f") -> str:
         """A number in the marks of the language."""

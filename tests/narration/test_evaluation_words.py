@@ -1,4 +1,4 @@
-"""What is told of runs that are all the same."""
+"""How the figures of an evaluation are told: runs that are all the same, shares that are nearly all."""
 
 from __future__ import annotations
 
@@ -22,3 +22,11 @@ def test_of_runs_that_are_all_the_same_no_interval_is_told(language: str) -> Non
     assert summary["alike"]
     told = " ".join(evaluation_words(language).paragraphs(spec, summary))
     assert "95" not in told
+
+
+@pytest.mark.parametrize(
+    ("share", "told"),
+    [(0.0, "0"), (1.0, "100"), (0.5, "50"), (0.12345, "12.3"), (0.99995, "99.995"), (0.0001, "0.01")],
+)
+def test_nearly_all_is_not_told_as_all(share: float, told: str) -> None:
+    assert evaluation_words("en").percent(share) == told
