@@ -1,4 +1,4 @@
-"""Answers about all others, what was hit, and how a drive ended: they say their facts, briefly, in both languages."""
+"""What is told of all others, of what was hit and of how a drive ended says its facts, in both languages."""
 
 from __future__ import annotations
 

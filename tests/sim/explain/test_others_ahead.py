@@ -1,4 +1,4 @@
-"""Where others go and who crosses ahead, against the road driven on step by step; what was hit, against two states."""
+"""Where others go and who crosses ahead, against the road driven on; what was hit, against two states."""
 
 from __future__ import annotations
 
