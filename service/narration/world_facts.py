@@ -11,7 +11,7 @@ from service.sessions.facts import Asked
 from sim.config import COUNTS
 from sim.perceive.registry import sensor_named
 from sim.state import SimState
-from sim.types import KINDS, PLACEABLE, Kind
+from sim.types import HAZARDS, KINDS, PLACEABLE, Kind
 
 
 class WorldFacts:
@@ -36,8 +36,11 @@ class WorldFacts:
             "contact": self._contact,
             "points": self._points,
             "behind": self._behind,
-        }[str(ask.what)]
-        text, facts = tell(state)
+        }
+        if ask.what == "obstacles":
+            text, facts = self._obstacles(state, (asked.supposes or "").split())
+        else:
+            text, facts = tell[str(ask.what)](state)
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
 
     def _tick_order(self, state: SimState) -> tuple[str, Json]:
@@ -130,6 +133,21 @@ class WorldFacts:
         several = len(state.world.avs) > 1
         told = [self._say("behind", "several")] if several else [self._say("behind", "never")]
         return " ".join([*told, self._say("behind", "side")]), {"several": several}
+
+    def _obstacles(self, state: SimState, words: list[str]) -> tuple[str, Json]:  # noqa: ARG002 -- the same of every session
+        """What is fixed, whether others get past it, and how barriers and potholes differ; what was asked first."""
+        key = next((each for each in ("move", "pass") if each in words), None)
+        told = [self._say("obstacles", key)] if key is not None else []
+        told.append(self._say("obstacles", "both"))
+        told += [self._say("obstacles", kind.value) for kind in HAZARDS]
+        return " ".join(told), {
+            kind.value: {
+                "moves": kind.moves,
+                "occludes": KINDS[kind].occludes,
+                "holds_movers": KINDS[kind].holds_movers,
+            }
+            for kind in HAZARDS
+        }
 
     def _percent(self, share: float) -> str:
         return self._sayings.number(round(100 * share, 1))
