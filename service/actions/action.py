@@ -182,7 +182,7 @@ class Ask:
         )
 
     def _check_sight(self) -> None:
-        """Raise `ValueError` where a kind of things or a sensor does not belong to what is asked of sensing."""
+        """Raise `ValueError` where a kind of things or a sensor does not belong to what is asked."""
         if self.what == "detection" and self.kind is None and self.value is None:
             raise ValueError("detection is asked of a kind of things or of a sensor")
         if self.kind is not None and self.what not in ("detection", "belief", "would_see"):

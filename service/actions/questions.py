@@ -78,8 +78,8 @@ PlannerFactName = Literal[
 ]
 """What is asked of how a planner decides always.
 
-`lookahead`: how far ahead; `ties`: among equals; `replanning`: how often; `precedence`: in what order it tries
-moves; `costs`: what costs what; `halts`: when it waits; `prediction`: whether it knows where others go;
+`lookahead`: how far ahead; `ties`: among equals; `replanning`: how often; `precedence`: in what order it
+tries moves; `costs`: what costs what; `halts`: when it waits; `prediction`: whether it knows where others go;
 `heuristic`: what bounds its search; `no_way`: what it does where no way leads to the goal.
 """
 PlannersName = Literal[
@@ -245,11 +245,11 @@ SessionFactName = Literal[
 ]
 """What is asked of the simulator around a drive.
 
-`picture`: why pictures show more than is seen; `hand_sight`: what a person who drives sees; `holes`: whether a
-pothole may be driven over; `export`: how a drive is saved; `switching`: what can be set during a drive;
+`picture`: why pictures show more than is seen; `hand_sight`: what a person who drives sees; `holes`: whether
+a pothole may be driven over; `export`: how a drive is saved; `switching`: what can be set during a drive;
 `stepping`: whether one can go back to a tick; `emergency`: why there is no emergency braking;
-`traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim about a rate takes; `keys`: which
-keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them.
+`traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim about a rate takes; `keys`:
+which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them.
 """
 WorldName = Literal[
     "pace",
@@ -470,7 +470,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     **dict.fromkeys((*get_args(PlannerFactName), "effort"), (frozenset(), frozenset(("planner",)))),
     "parting": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
-    "cell": (frozenset(("move",)),),
+    "cell": (frozenset(), frozenset(("move",))),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""

@@ -382,7 +382,7 @@ class Sentences(RuleSentences):
         key += "" if ask.want is None else f"_{ask.want}"
         key += "_count" if ask.what == "closest_call" and ask.count is not None else ""
         seconds = "" if ask.seconds is None else number(ask.seconds)
-        thing, things = ("", "") if ask.kind is None else self._entry("things", ask.kind)[:2]
+        things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
         move = "" if ask.move is None else self._word("asked", ask.move)
         return self._word("history", key).format(
             tick=ask.tick,

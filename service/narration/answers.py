@@ -40,8 +40,8 @@ from service.narration.ranking import Rankings
 from service.narration.rules import RulesTold
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
-from service.narration.sensing_compared import SensingCompared
 from service.narration.search_efforts import SearchEfforts
+from service.narration.sensing_compared import SensingCompared
 from service.narration.sensing_facts import SensingFacts
 from service.narration.sensing_now import SensingNow
 from service.narration.sensor_effects import SensorEffects

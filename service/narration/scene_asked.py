@@ -15,7 +15,8 @@ WANTED: Final[tuple[Wanted, ...]] = ("any", "what", "number", "free", "taken")
 LANE: Final = "lane"
 """Before `left`, `right` or `own`: the lane beside the ego, or its own."""
 LANES: Final = "lanes"
-"""Before what is asked of all lanes: `free`, `taken`, `best`, `emptiest`, `with` things of a kind, `beside` the ego, or
+"""Before what is asked of all lanes: `free`, `taken`, `best`, `emptiest`,
+`with` things of a kind, `beside` the ego, or
 `sides`."""
 SIDES: Final = "sides"
 """Before the side on which more is supposed, or `both`."""

@@ -192,7 +192,7 @@ class ScenePlaces:
         return within([*told, Part(1, self._say("lanes_change", own=self._own))])
 
     def _row(self, asked: str, kind: Kind | None, wanted: Wanted) -> tuple[Scene, str]:
-        """What is in the row right ahead; gaps in the nearest row ahead of a kind; or what is beyond that row."""
+        """What is in the row right ahead; gaps in the nearest row of a kind; or what is beyond that row."""
         noun = self._say("any_thing") if kind is None else self._told.noun(kind, 2)
         ahead = [thing for thing in self._scene.seen if thing.rows > 0]
         if asked == "next":
@@ -215,7 +215,7 @@ class ScenePlaces:
         return self._gaps([thing for thing in ahead if thing.rows == row], kind, metres)
 
     def _row_of(self, kind: Kind | None, ahead: Sequence[Detection]) -> int | None:
-        """Rows ahead to the nearest one with two things of a kind or more, else with one; None without any."""
+        """Rows to the nearest one ahead with two things of a kind or more, else with one; None without."""
         rows = Counter(thing.rows for thing in ahead if kind in (None, thing.kind))
         several = [row for row, count in rows.items() if count > 1]
         return min(several or rows, default=None)

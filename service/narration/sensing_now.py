@@ -1,4 +1,4 @@
-"""Answers about one sensor at work: what weather does to it, what it got wrong, single cells, another sensor."""
+"""Answers about one sensor at work: what weather does to it, what it got wrong, single cells, another one."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SAYS: Final = 0.5
 
 
 class SensingNow:
-    """Answers to "what does the fog do to the camera?", "were there false alarms?", "is the next cell free?"."""
+    """Answers to "what does fog do to the camera?", "were there false alarms?", "what is unknown?"."""
 
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
@@ -54,7 +54,7 @@ class SensingNow:
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
 
     def _effect(self, asked: Asked) -> tuple[str, Json]:
-        """How far and how surely things are detected with what is named, or with what holds, and without it."""
+        """How far and how surely things are detected with what is named, else what holds, and without."""
         config, words = self._with_sensor(asked), (asked.supposes or "").split()
         weather = next((each for each in get_args(Weather) if each in words and each != CLEAR), None)
         light = next((each for each in get_args(TimeOfDay) if each in words and each != DAY), None)
@@ -156,7 +156,9 @@ class SensingNow:
         )
         missed = self._say("errors", "missed" if found.missed else "none_missed", count=found.missed)
         if found.missed:
-            missed = f"{missed} {self._say('errors', 'share', percent=self._percent(found.seen / found.things))}"
+            missed = (
+                f"{missed} {self._say('errors', 'share', percent=self._percent(found.seen / found.things))}"
+            )
         alarms = self._alarms(found)
         if ALARMS in words:
             told = [self._yes(found.alarms or found.imagined), alarms, right]
@@ -206,7 +208,9 @@ class SensingNow:
         percent = self._percent(1.0 - found.taken)
         told = [Part(0, self._say("cell", "free", where=where, percent=percent))]
         if found.shown is not None:
-            told.append(Part(0, self._say("cell", "shown", a=self._sayings.say("words", "a", found.shown))))
+            told.insert(
+                0, Part(0, self._say("cell", "shown", a=self._sayings.say("words", "a", found.shown)))
+            )
         else:
             told.append(Part(1, self._say("cell", "counts_free", percent=threshold)))
         told += [Part(0, truth), Part(2, self._say("cell", "now"))]

@@ -142,22 +142,21 @@ class SessionFacts:
         metrics = asked.timeline.state.metrics
         words = (asked.supposes or "").split()
         order = ["hand", "ends"] if "hand" in words else ["ends", "hand"]
-        told = [self._say("counting", key) for key in order]
+        told = [Part(rank, self._say("counting", key)) for rank, key in enumerate(order)]
         if "hand" in words or "stuck" in words:
-            told.insert(0, self._say("counting", "yes"))
+            told.insert(0, Part(0, self._say("counting", "yes")))
         if metrics.episodes:
-            told.append(
-                self._say(
-                    "counting",
-                    "now",
-                    successes=metrics.successes,
-                    crashes=metrics.crashes,
-                    stuck=metrics.stuck,
-                    episodes=metrics.episodes,
-                )
+            now = self._say(
+                "counting",
+                "now",
+                successes=metrics.successes,
+                crashes=metrics.crashes,
+                stuck=metrics.stuck,
+                episodes=metrics.episodes,
             )
+            told.append(Part(2, now))
         counted = {"successes": metrics.successes, "crashes": metrics.crashes, "stuck": metrics.stuck}
-        return " ".join(told), counted
+        return within(told), counted
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("session_facts", *keys, **parts)

@@ -38,7 +38,7 @@ class WorldFacts:
             "behind": self._behind,
         }
         if ask.what == "obstacles":
-            text, facts = self._obstacles(state, (asked.supposes or "").split())
+            text, facts = self._obstacles((asked.supposes or "").split())
         else:
             text, facts = tell[str(ask.what)](state)
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
@@ -134,13 +134,13 @@ class WorldFacts:
         told = [self._say("behind", "several")] if several else [self._say("behind", "never")]
         return " ".join([*told, self._say("behind", "side")]), {"several": several}
 
-    def _obstacles(self, state: SimState, words: list[str]) -> tuple[str, Json]:  # noqa: ARG002 -- the same of every session
-        """What is fixed, whether others get past it, and how barriers and potholes differ; what was asked first."""
+    def _obstacles(self, words: list[str]) -> tuple[str, Json]:
+        """What was asked first: whether they move or can be passed; then how barriers and potholes differ."""
         key = next((each for each in ("move", "pass") if each in words), None)
-        told = [self._say("obstacles", key)] if key is not None else []
-        told.append(self._say("obstacles", "both"))
-        told += [self._say("obstacles", kind.value) for kind in HAZARDS]
-        return " ".join(told), {
+        told = [Part(0, self._say("obstacles", key))] if key is not None else []
+        told.append(Part(1 if key else 0, self._say("obstacles", "both")))
+        told += [Part(2 if key else 0, self._say("obstacles", kind.value)) for kind in HAZARDS]
+        return within(told), {
             kind.value: {
                 "moves": kind.moves,
                 "occludes": KINDS[kind].occludes,
