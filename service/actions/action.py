@@ -161,14 +161,8 @@ class Ask:
             self._check_counted()
         if self.about == "outlook" and self.kind is not None and self.what not in OF_OTHERS:
             raise ValueError("of the time ahead, other road users alone are asked of a kind of things")
-        if self.about == "sight" and self.kind is None and self.what == "detection":
-            raise ValueError("detection is asked of a kind of things")
-        if self.about == "sight" and self.kind is not None and self.what not in ("detection", "belief"):
-            raise ValueError("of sensing, detection and belief alone are asked of a kind of things")
-        if self.about == "sight" and self.value is not None and not self._names_a_sensor():
-            raise ValueError(
-                "of one sensor, 'weathers' and 'sensor_fault' are asked, and it is one that errs"
-            )
+        if self.about == "sight":
+            self._check_sight()
         if self.about == "what_if" and (self.kind is None) is (self.what in get_args(ScaleName)):
             raise ValueError("of a kind of things it is asked what if there were half or twice as many")
         supposed = self.what in _SUPPOSED
@@ -190,9 +184,17 @@ class Ask:
             "it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget, Trigger, Cancel)
         )
 
-    def _names_a_sensor(self) -> bool:
-        one = self.what in ("weathers", "sensor_fault")
-        return one and self.value in get_args(SensorName) and self.value != "perfect"
+    def _check_sight(self) -> None:
+        """Raise `ValueError` where a kind of things or a sensor does not belong to what is asked."""
+        if self.what == "detection" and self.kind is None and self.value is None:
+            raise ValueError("detection is asked of a kind of things or of a sensor")
+        if self.kind is not None and self.what not in ("detection", "belief", "would_see"):
+            raise ValueError(
+                "of sensing, detection, belief and would_see alone are asked of a kind of things"
+            )
+        named = self.value in get_args(SensorName) and self.value != "perfect"
+        if self.value is not None and not (self.what in _OF_A_SENSOR and named):
+            raise ValueError(f"of one sensor, {', '.join(_OF_A_SENSOR)} are asked, and it is one that errs")
 
     def _is_no_stretch(self) -> bool:
         return self.what not in ("stopped", "moving", *(("sighted",) if self.want == "share" else ()))
@@ -255,6 +257,8 @@ _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "
 _BESIDE_WHAT = ("move", "tick", "until", "ticks", "seconds", "planners", "planner")
 """Keys that some values of `what` need, and others must not have."""
 
+_OF_A_SENSOR = ("weathers", "sensor_fault", "effect", "range", "detection", "would_see")
+"""What of sensing may be asked of one sensor."""
 _SUPPOSED = tuple(
     what for names in (PolicyName, SoonerName, SideName, ScaleName, SeedsName) for what in get_args(names)
 )

@@ -11,14 +11,23 @@ from collections.abc import Mapping
 from typing import Final, Literal, get_args
 
 from service.actions.action import Ask
-from service.actions.questions import WHATS, PlannersName
+from service.actions.questions import (
+    WHATS,
+    PlannersName,
+    SessionFactName,
+    WorldFactName,
+    WorldRuleName,
+)
 
 Moment = Literal["decision", "state", "drive", "present", "none"]
 """`decision`: the one taken at the tick; `state`: how it stood then; `drive`: the whole episode of the tick;
 `present`: now, whatever is looked at; `none`: no moment at all, or one that the question brings along."""
 
 _OF_A_DECISION: Final = ("here", "compare", "own")
-"""What of planners is asked of one decision; all else is asked of planners in general."""
+"""What of planners is asked of one decision; nearly all else is asked of planners in general."""
+
+_OF_THE_WORLD: Final = (*get_args(WorldRuleName), *get_args(WorldFactName), *get_args(SessionFactName))
+"""What holds whatever is looked at; `traffic_rules` tells of the drive as well."""
 
 _OF: Final[Mapping[str, Moment]] = {
     **dict.fromkeys(("why", "why_not", "what_if", "other"), "decision"),
@@ -44,46 +53,14 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     **{("planners", what): "decision" for what in _OF_A_DECISION},
     **{("planners", what): "none" for what in get_args(PlannersName) if what not in _OF_A_DECISION},
     **{("sight", what): "none" for what in ("detection", "combining", "memory", "unseen", "model")},
-    **{
-        ("world", what): "none"
-        for what in (
-            "chance",
-            "colours",
-            "moves",
-            "movers",
-            "weights",
-            "learning",
-            "nature",
-            "sources",
-            "by_hand",
-            "giving_up",
-            "tick_order",
-            "sharing",
-            "fixtures",
-            "slippery",
-            "endings",
-            "road_made",
-            "realism",
-            "constancy",
-            "contact",
-            "points",
-            "behind",
-            "hand_sight",
-            "holes",
-            "export",
-            "switching",
-            "stepping",
-            "emergency",
-            "picture",
-            "runs_needed",
-            "heed",
-        )
-    },
+    **{("world", what): "none" for what in ("chance", "colours", *_OF_THE_WORLD)},
     ("world", "harm"): "drive",
     ("sight", "prevents"): "drive",
     ("sight", "sensor_fault"): "drive",
     ("world", "traffic_rules"): "drive",
     ("planners", "parting"): "drive",
+    ("planners", "effort"): "state",
+    ("sight", "errors"): "drive",
 }
 """By kind and `what`, where that is another one."""
 

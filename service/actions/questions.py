@@ -71,6 +71,23 @@ BlameName = Literal[
 `human`: whether a person would have crashed; `first_seen`: since when what was hit was seen; `the_other`:
 where what was hit came from, and how fast; `other_could`: whether it could have kept clear.
 """
+PlannerFactName = Literal[
+    "lookahead",
+    "ties",
+    "replanning",
+    "precedence",
+    "costs",
+    "halts",
+    "prediction",
+    "heuristic",
+    "no_way",
+]
+"""What is asked of how a planner decides always.
+
+`lookahead`: how far ahead; `ties`: among equals; `replanning`: how often; `precedence`: in what order it
+tries moves; `costs`: what costs what; `halts`: when it waits; `prediction`: whether it knows where others go;
+`heuristic`: what bounds its search; `no_way`: what it does where no way leads to the goal.
+"""
 PlannersName = Literal[
     "here",
     "compare",
@@ -79,22 +96,15 @@ PlannersName = Literal[
     "method",
     "often",
     "difference",
-    "lookahead",
-    "ties",
-    "replanning",
-    "precedence",
-    "costs",
-    "halts",
-    "prediction",
+    "effort",
     "parting",
+    PlannerFactName,
 ]
 """What about planners is asked.
 
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
-often it arrives, crashes and gets stuck; `difference`: how some differ in general; `parting`: where two first
-decide otherwise on this road. How one decides always: `lookahead`: how far ahead; `ties`: among equals;
-`replanning`: how often; `precedence`: in what order it tries moves; `costs`: what costs what; `halts`: when
-it waits; `prediction`: whether it knows where others go.
+often it arrives, crashes and gets stuck; `difference`: how some differ in general; `effort`: how much a
+search looks at; `parting`: where two first decide otherwise on this road.
 """
 HistoryName = Literal[
     "closest_call",
@@ -176,6 +186,11 @@ SightName = Literal[
     "coping",
     "sensor_choice",
     "belief",
+    "effect",
+    "errors",
+    "cell",
+    "unknown",
+    "would_see",
 ]
 """What about sensing is asked.
 
@@ -186,16 +201,11 @@ surely each sensor detects a kind of things; `combining`: how several devices be
 which sensor would have led to the goal; `sensor_fault`: whether the sensor is to blame; `limits`: whether
 weather or light limits it more; `model`: how weather and light are simulated; `coping`: how it drives where
 little is seen; `sensor_choice`: who chose the sensor; `belief`: how sure it is of the nearest thing, which
-device saw that, and whether it is there.
+device saw that, and whether it is there; `effect`: what weather and light do to a sensor; `errors`: in how
+many ticks what was seen was what was there; `cell`: how sure it is that the cell of a move is free;
+`unknown`: which cells ahead no device sees; `would_see`: whether another sensor would see the nearest thing.
 """
-WorldName = Literal[
-    "pace",
-    "gap",
-    "stopping",
-    "right_of_way",
-    "harm",
-    "chance",
-    "colours",
+WorldRuleName = Literal[
     "moves",
     "movers",
     "weights",
@@ -204,6 +214,14 @@ WorldName = Literal[
     "sources",
     "by_hand",
     "giving_up",
+]
+"""What is asked of this world and holds in every drive.
+
+`moves`: which moves there are; `movers`: how cars and people move; `weights`: whether a person counts more
+than a car; `learning`: whether it learns; `nature`: whether it feels; `sources`: where answers come from;
+`by_hand`: what happens while a person drives; `giving_up`: when a drive counts as stuck.
+"""
+WorldFactName = Literal[
     "tick_order",
     "sharing",
     "fixtures",
@@ -215,6 +233,18 @@ WorldName = Literal[
     "contact",
     "points",
     "behind",
+    "obstacles",
+    "heed",
+]
+"""What is asked of how this world is made.
+
+`tick_order`: who moves first; `sharing`: whether others collide; `fixtures`: traffic lights, horns and the
+like; `endings`: what follows an end; `road_made`: how roads are drawn; `constancy`: whether the weather
+changes; `contact`: what counts as a crash; `points`: whether there are any; `behind`: whether anything comes
+from behind; `obstacles`: what sets barriers and potholes apart, and whether they move or can be passed;
+`heed`: whether others see the ego and react to it.
+"""
+SessionFactName = Literal[
     "picture",
     "hand_sight",
     "holes",
@@ -224,23 +254,33 @@ WorldName = Literal[
     "emergency",
     "traffic_rules",
     "runs_needed",
-    "heed",
+    "keys",
+    "counting",
+]
+"""What is asked of the simulator around a drive.
+
+`picture`: why pictures show more than is seen; `hand_sight`: what a person who drives sees; `holes`: whether
+a pothole may be driven over; `export`: how a drive is saved; `switching`: what can be set during a drive;
+`stepping`: whether one can go back to a tick; `emergency`: why there is no emergency braking;
+`traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim about a rate takes; `keys`:
+which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them.
+"""
+WorldName = Literal[
+    "pace",
+    "gap",
+    "stopping",
+    "right_of_way",
+    "harm",
+    "chance",
+    "colours",
+    WorldRuleName,
+    WorldFactName,
+    SessionFactName,
 ]
 """What about this world and its rules is asked.
 
 `pace`: how fast a move is; `gap`: the distance kept; `harm`: whether anybody was hurt; `chance`: whether the
-same would happen again; `colours`: what the picture shows; `moves`: which moves there are; `movers`: how cars
-and people move; `weights`: whether a person counts more than a car; `learning`: whether it learns; `nature`:
-whether it feels; `sources`: where answers come from; `by_hand`: what happens while a person drives;
-`giving_up`: when a drive counts as stuck; `tick_order`: who moves first; `sharing`: whether others collide;
-`fixtures`: traffic lights, horns and the like; `endings`: what follows an end; `road_made`: how
-roads are drawn; `constancy`: whether the weather changes; `contact`: what counts as a crash; `points`:
-whether there are any; `behind`: whether anything comes from behind; `picture`: why
-pictures show more than is seen; `hand_sight`: what a person who drives sees; `holes`: whether a pothole may
-be driven over; `export`: how a drive is saved; `switching`: what can be set during a drive; `stepping`:
-whether one can go back to a tick; `emergency`: why there is no emergency braking; `traffic_rules`: whether
-one was broken; `runs_needed`: how many runs a claim about a rate takes; `heed`: whether others see the ego
-and react to it.
+same would happen again; `colours`: what the picture shows.
 """
 OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
@@ -385,7 +425,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
-    "sight": QuestionTraits(("what", "kind", "value"), ("what",), runs_episodes=True),
+    "sight": QuestionTraits(("what", "kind", "value", "move"), ("what",), runs_episodes=True),
     "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
 
@@ -445,13 +485,10 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "method": (frozenset(), frozenset(("planner",))),
     "often": (frozenset(),),
     "difference": (frozenset(("planners",)),),
-    **dict.fromkeys(
-        ("lookahead", "ties", "replanning", "precedence", "costs", "halts"),
-        (frozenset(), frozenset(("planner",))),
-    ),
-    "prediction": (frozenset(),),
+    **dict.fromkeys((*get_args(PlannerFactName), "effort"), (frozenset(), frozenset(("planner",)))),
     "parting": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
+    "cell": (frozenset(), frozenset(("move",))),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""

@@ -405,7 +405,7 @@ class Sentences(RuleSentences):
         key += "" if ask.value is None else "_sensor"
         sensor = "" if ask.value is None else self._value("sensor", str(ask.value))
         seconds = "" if ask.seconds is None else number(ask.seconds)
-        things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
+        thing, things = ("", "") if ask.kind is None else self._entry("things", ask.kind)[:2]
         move = "" if ask.move is None else self._word("asked", ask.move)
         return self._word(ask.about, key).format(
             planners=planners,
@@ -413,6 +413,7 @@ class Sentences(RuleSentences):
             ticks=ask.ticks,
             seconds=seconds,
             move=move,
+            thing=thing,
             things=things,
             sensor=sensor,
         )

@@ -16,7 +16,7 @@ from service.contract.encode.ahead import (
 )
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
-from service.narration.asked_moment import where_stuck
+from service.narration.asked_moment import until, where_stuck
 from service.narration.assurance import assurance_told
 from service.narration.charges import in_seconds
 from service.narration.crash_ahead import CrashesAhead
@@ -36,6 +36,10 @@ from sim.types import Mode, Move, Outcome
 
 _LEADS_ON: Final = ("way", "arrive_how")
 """What is asked of how it could go on."""
+
+
+START: Final = "start"
+"""What a question supposes that is about the first tick of the drive."""
 
 
 class Outlooks:
@@ -60,11 +64,18 @@ class Outlooks:
     def answer(self, asked: Asked) -> Json:
         """See `Answerer.answer`. Where the episode has ended, that is the answer.
 
-        What would have led on, where it is stuck, is told of the tick at which it got no further.
+        What would have led on, where it is stuck, is told of the tick at which it got no further; what led on
+        at the start, of the first one.
         """
         ask, state = asked.ask, asked.timeline.state
-        if ask.what in _LEADS_ON and (earlier := where_stuck(asked.timeline)) is not None:
-            answer = self.answer(replace(asked, timeline=earlier))
+        earlier = None
+        if ask.what in _LEADS_ON:
+            if asked.supposes == START:
+                earlier = until(asked.timeline, state.world.episode_start)
+            else:
+                earlier = where_stuck(asked.timeline)
+        if earlier is not None:
+            answer = self.answer(replace(asked, timeline=earlier, supposes=None))
             text = self._sayings.say("past", "viewed", "then", tick=earlier.tick, text=answer["text"])
             return answer | {"text": text}
         try:

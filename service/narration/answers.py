@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Final
+from typing import Final, get_args
 
 from service.actions import Ask, dump
-from service.actions.questions import OF_OTHERS
+from service.actions.questions import (
+    OF_OTHERS,
+    PlannerFactName,
+    SessionFactName,
+    WorldFactName,
+    WorldRuleName,
+)
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
@@ -43,8 +49,10 @@ from service.narration.ranking import Rankings
 from service.narration.rules import RulesTold
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
+from service.narration.search_efforts import SearchEfforts
 from service.narration.sensing_compared import SensingCompared
 from service.narration.sensing_facts import SensingFacts
+from service.narration.sensing_now import SensingNow
 from service.narration.sensor_effects import SensorEffects
 from service.narration.sensors_again import SensorsAgain
 from service.narration.session_facts import SessionFacts
@@ -69,49 +77,10 @@ from sim.explain.sooner import longer_wait, sooner_change, sooner_stop, unstoppe
 from sim.explain.what_if import moment_of
 from sim.types import Kind, Move
 
-RULES_OF_THE_WORLD: Final = (
-    "moves",
-    "movers",
-    "weights",
-    "learning",
-    "nature",
-    "sources",
-    "by_hand",
-    "giving_up",
-)
-"""What is asked of this world and holds in every drive."""
-
-FACTS_OF_THE_WORLD: Final = (
-    "tick_order",
-    "sharing",
-    "fixtures",
-    "slippery",
-    "endings",
-    "road_made",
-    "realism",
-    "constancy",
-    "contact",
-    "points",
-    "behind",
-    "heed",
-)
-"""What is asked of how this world is made."""
-
-FACTS_OF_THE_SESSION: Final = (
-    "picture",
-    "hand_sight",
-    "holes",
-    "export",
-    "switching",
-    "stepping",
-    "emergency",
-    "traffic_rules",
-    "runs_needed",
-)
-"""What is asked of the simulator around a drive."""
-
-FACTS_OF_PLANNERS: Final = ("lookahead", "ties", "replanning", "precedence", "costs", "halts", "prediction")
-"""What is asked of how a planner decides always."""
+RULES_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldRuleName)
+FACTS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldFactName)
+FACTS_OF_THE_SESSION: Final[tuple[str, ...]] = get_args(SessionFactName)
+FACTS_OF_PLANNERS: Final[tuple[str, ...]] = get_args(PlannerFactName)
 
 
 class Answers:
@@ -158,6 +127,8 @@ class Answers:
             SensorsAgain(sayings): ("prevents", "sensor_fault"),
             SensorEffects(sayings): ("limits", "model", "coping", "sensor_choice"),
             NearestBelieved(sayings): ("belief",),
+            SensingNow(sayings): ("effect", "errors", "cell", "unknown", "would_see"),
+            SearchEfforts(sayings): ("effort",),
             SessionFacts(sayings): FACTS_OF_THE_SESSION,
             PlannerPartings(sayings): ("parting",),
             OtherSeeds(sayings): ("other_seeds",),

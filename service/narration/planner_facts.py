@@ -50,6 +50,8 @@ class PlannerFacts:
             return self._costs(name, state.config)
         if what == "prediction":
             return self._prediction(name, state)
+        if what == "heuristic":
+            return self._heuristic(name, state.config)
         parts = {
             "planner": self._sayings.planner(name),
             "moves": self._sayings.joined([self._sayings.move(move, "name") for move in Move]),
@@ -78,6 +80,16 @@ class PlannerFacts:
         if listed:
             text = f"{text} {self._say('costs', 'extra', listed=self._sayings.joined(listed))}"
         return f"{text} {self._say('costs', 'cheapest')}", {"charges": {"tick": found.tick, **said}}
+
+    def _heuristic(self, name: str, config: Config) -> tuple[str, Json]:
+        """The lower bound by which A* searches; that the others have none."""
+        if name != "astar":
+            key = name if name == "dijkstra" else MANNERS[name]
+            return self._say("heuristic", key, planner=self._sayings.planner(name)), {"least": None}
+        found = weights(config)
+        least = min(found.of(move) for move in Move if move.offset[1] < 0)
+        told = self._say("heuristic", "astar", planner=self._sayings.planner(name), least=least)
+        return told, {"least": least}
 
     def _prediction(self, name: str, state: SimState) -> tuple[str, Json]:
         """What is known of others for the coming tick, what is foretold beyond it, what cannot be known."""

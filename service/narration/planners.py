@@ -57,6 +57,9 @@ _AGREES: Final[Mapping[str | None, Callable[[PlannersHere, PlannerDrive], bool |
 _ALL: Final = {"all_crash": Outcome.CRASH, "all_arrive": Outcome.SUCCESS}
 """What may be asked of all of them with yes or no."""
 
+ANY_ARRIVES: Final = "any_arrives"
+"""What a question supposes that asks whether one of them arrives."""
+
 
 def _begins(ask: Ask, timeline: Timeline) -> int | None:
     """The past tick from which planners are run: the one asked about, else the start of what has ended."""
@@ -116,6 +119,8 @@ class Planners:
 
     def _agreed(self, found: PlannersHere, asked: Asked) -> str:
         """Yes or no, where it was asked whether one planner does something; empty where it cannot be said."""
+        if asked.supposes == ANY_ARRIVES:
+            return self._any_arrives(found, asked)
         if asked.supposes in _ALL:
             return self._all_agreed(found, _ALL[asked.supposes], asked)
         if len(found.others) != 1 or asked.supposes not in _AGREES:
@@ -124,6 +129,14 @@ class Planners:
         agrees = _AGREES[asked.supposes](found, drive)
         word = None if agrees is None else yes_and_no(self._sayings, asked)["yes" if agrees else "no"]
         return "" if word is None else self._say("judged", "good", yes=word)
+
+    def _any_arrives(self, found: PlannersHere, asked: Asked) -> str:
+        """Yes where one of them arrives, no where none does; empty where that is left to chance."""
+        ends = [_ends_in(Outcome.SUCCESS)(found, each) for each in (found.own, *found.others)]
+        if True not in ends and None in ends:
+            return ""
+        word = yes_and_no(self._sayings, asked)["yes" if True in ends else "no"]
+        return self._say("judged", "good", yes=word)
 
     def _all_agreed(self, found: PlannersHere, outcome: Outcome, asked: Asked) -> str:
         """Yes where all of them end so, no where one does not; empty where that is left to chance."""

@@ -15,10 +15,13 @@ WANTED: Final[tuple[Wanted, ...]] = ("any", "what", "number", "free", "taken")
 LANE: Final = "lane"
 """Before `left`, `right` or `own`: the lane beside the ego, or its own."""
 LANES: Final = "lanes"
-"""Before what is asked of all lanes: `free`, `taken`, `best`, `with` things of a kind, `beside` the ego, or
+"""Before what is asked of all lanes: `free`, `taken`, `best`, `emptiest`,
+`with` things of a kind, `beside` the ego, or
 `sides`."""
 SIDES: Final = "sides"
 """Before the side on which more is supposed, or `both`."""
+ROW: Final = "row"
+"""Before what is asked of one row ahead: what is in the `next`, a `gap` in it, or what is `beyond` it."""
 WITHIN: Final = "within"
 """Before a number of rows."""
 
@@ -46,7 +49,7 @@ class SceneAsked:
     @property
     def is_of_places(self) -> bool:
         """Whether it is of a part of the road, or of its lanes."""
-        return bool(self.place) or self.lane is not None or self.lanes is not None
+        return bool(self.place) or any(each is not None for each in (self.lane, self.lanes, self.row))
 
     @property
     def wanted(self) -> Wanted:
@@ -67,3 +70,8 @@ class SceneAsked:
     def lanes(self) -> str | None:
         """What is asked of all lanes."""
         return self.words[1] if self.words[:1] == (LANES,) else None
+
+    @property
+    def row(self) -> str | None:
+        """`next` for the row right ahead, `gap` or `beyond` of the nearest row of a kind; else None."""
+        return self.words[1] if self.words[:1] == (ROW,) else None

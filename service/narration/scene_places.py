@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Final
@@ -45,6 +46,8 @@ class ScenePlaces:
             return self._scene, self._sides_compared(kind, about.more_on)
         if about.lanes is not None:
             return self._scene, self._lanes(about.lanes, kind)
+        if about.row is not None:
+            return self._row(about.row, kind, about.wanted)
         if about.place.get("nearest"):
             return self._nearest(kind, many="number" in about.words)
         lane = self._lane(about)
@@ -162,6 +165,8 @@ class ScenePlaces:
         room = {lane: self._room(lane) for lane in range(1, self._columns + 1)}
         if asked == "beside":
             return self._next_to(room)
+        if asked == "emptiest":
+            return self._emptiest(room)
         free = [lane for lane, (beside, first) in room.items() if not beside and first is None]
         if asked == "taken":
             return self._lanes_taken(room)
@@ -171,6 +176,60 @@ class ScenePlaces:
             told = [Part(0, self._say("lanes_none_free"))] if asked == "free" else []
             told.append(Part(0, self._most_room(room)))
         return within([*told, Part(1, self._say("lanes_change", own=self._own))])
+
+    def _emptiest(self, room: Mapping[int, tuple[bool, Detection | None]]) -> str:
+        """The lanes with the fewest things level with the ego or ahead, then those with most room ahead."""
+        counts = {
+            lane: sum(self._own + thing.lanes == lane and thing.rows >= 0 for thing in self._scene.seen)
+            for lane in room
+        }
+        least = min(counts.values())
+        lanes = [lane for lane, count in counts.items() if count == least]
+        key = "none" if not least else "one" if least == 1 else "many"
+        told = [Part(0, self._say("lanes_emptiest", key, lanes=self._numbers(lanes), count=least))]
+        if least:
+            told.append(Part(1, self._most_room(room)))
+        return within([*told, Part(1, self._say("lanes_change", own=self._own))])
+
+    def _row(self, asked: str, kind: Kind | None, wanted: Wanted) -> tuple[Scene, str]:
+        """What is in the row right ahead; gaps in the nearest row of a kind; or what is beyond that row."""
+        noun = self._say("any_thing") if kind is None else self._told.noun(kind, 2)
+        ahead = [thing for thing in self._scene.seen if thing.rows > 0]
+        if asked == "next":
+            things = sorted(
+                (thing for thing in ahead if thing.rows == 1 and kind in (None, thing.kind)), key=distance
+            )
+            there = replace(self._scene, seen=tuple(things))
+            return there, self._listed(things, kind, wanted, self._say("in_next_row"))
+        row = self._row_of(kind, ahead)
+        if row is None:
+            return replace(self._scene, seen=()), self._say("row_none", things=noun)
+        metres = self._told.number(row * self._cell_m)
+        if asked == "beyond":
+            things = sorted((thing for thing in ahead if thing.rows > row), key=lambda thing: thing.rows)
+            there = replace(self._scene, seen=tuple(things))
+            key = "beyond" if things else "beyond_none"
+            listed = self._told.near_ones(things) if things else ""
+            yes, no = (self._told.answer(word) for word in ("agree", "disagree"))
+            return there, self._say(key, yes=yes, no=no, things=noun, metres=metres, listed=listed)
+        return self._gaps([thing for thing in ahead if thing.rows == row], kind, metres)
+
+    def _row_of(self, kind: Kind | None, ahead: Sequence[Detection]) -> int | None:
+        """Rows to the nearest one ahead with two things of a kind or more, else with one; None without."""
+        rows = Counter(thing.rows for thing in ahead if kind in (None, thing.kind))
+        several = [row for row, count in rows.items() if count > 1]
+        return min(several or rows, default=None)
+
+    def _gaps(self, things: Sequence[Detection], kind: Kind | None, metres: str) -> tuple[Scene, str]:
+        """Which lanes of a row hold nothing, of all that is seen in it."""
+        noun = self._say("any_thing") if kind is None else self._told.noun(kind, 2)
+        taken = {self._own + thing.lanes for thing in things}
+        free = [lane for lane in range(1, self._columns + 1) if lane not in taken]
+        yes, no = (self._told.answer(word) for word in ("agree", "disagree"))
+        key = "gaps" if free else "gaps_none"
+        lanes = self._numbers(free) if free else ""
+        text = self._say(key, yes=yes, no=no, things=noun, metres=metres, lanes=lanes)
+        return replace(self._scene, seen=tuple(things)), text
 
     def _next_to(self, room: Mapping[int, tuple[bool, Detection | None]]) -> str:
         """The lanes beside the ego that are free level with it, each with what comes first ahead in it."""

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Final
 
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, plain
 from service.narration.sayings import Sayings
+from service.narration.sensing_compared import conditions_said
 from service.narration.values import conditions_of, value_of
 from service.sessions.facts import Asked
+from sim.config import Config
 from sim.explain.planners import planner_of
 from sim.perceive.detection import detection_chance
 from sim.perceive.parameters import SUITES
@@ -19,6 +23,8 @@ from sim.types import Kind
 
 NEAR_CELLS, FAR_CELLS = 3, 10
 """Distances that chances of detection are told for."""
+ONE_BY_ONE: Final = (Kind.VEHICLE, Kind.PEDESTRIAN, Kind.POTHOLE)
+"""Kinds that are told of where none is named."""
 ALMOST_ALL = 99.9
 """Percent that less than all is never told to exceed."""
 
@@ -34,7 +40,7 @@ class SensingFacts:
         """See `Answerer.answer`."""
         ask, state = asked.ask, asked.timeline.state
         if ask.what == "detection":
-            text, facts = self._detection(Kind(str(ask.kind)), state)
+            text, facts = self._detection(asked)
         else:
             tell = {"memory": self._memory, "unseen": self._unseen, "combining": self._combining}
             text, facts = tell[str(ask.what)](state)
@@ -65,35 +71,53 @@ class SensingFacts:
         ]
         return within(told), {"threshold": threshold}
 
-    def _detection(self, kind: Kind, state: SimState) -> tuple[str, Json]:
-        """The chance that one look of each sensor detects a kind near by and farther off."""
-        config = state.config
-        metres = [cells * config.cell_m for cells in (NEAR_CELLS, FAR_CELLS)]
-        found = {
-            name: [detection_chance(replace(config, sensor=name), kind, each) or 0.0 for each in metres]
-            for name in SUITES
-        }
+    def _detection(self, asked: Asked) -> tuple[str, Json]:
+        """The chance that one look detects a kind of things near by and farther off, or at a distance.
+
+        Of each sensor or of the one that is named; of one sensor and no kind, of the kinds one by one.
+        """
+        ask, words = asked.ask, (asked.supposes or "").split()
+        config, supposed = conditions_said(asked.timeline.state.config, words)
+        sensors = list(SUITES) if ask.value is None else [str(ask.value)]
+        kinds = list(ONE_BY_ONE) if ask.kind is None else [Kind(ask.kind)]
+        named = next((int(each) for each in words if each.isdigit()), None)
+        cells = (NEAR_CELLS, FAR_CELLS) if named is None else (named,)
+        metres = [each * config.cell_m for each in cells]
+        told, chances = [], {}
+        for kind in kinds:
+            found = {
+                name: [detection_chance(replace(config, sensor=name), kind, each) or 0.0 for each in metres]
+                for name in sensors
+            }
+            chances[kind.value] = found
+            told.append(self._told(kind, found, metres, config))
+        text = " ".join([*told, self._say("detection", "perfect"), self._say("detection", "each_tick")])
+        first = {"kind": kinds[0], "chances": chances[kinds[0].value]} if ask.kind is not None else {}
+        return text, {"metres": metres, "chances_by_kind": chances} | first | supposed
+
+    def _told(
+        self, kind: Kind, found: Mapping[str, Sequence[float]], metres: Sequence[float], config: Config
+    ) -> str:
         listed = [
             self._say(
                 "detection",
-                "one",
+                "one" if len(chances) > 1 else "at",
                 sensor=value_of(self._sayings, "sensor", name),
-                near=self._percent(near),
-                far=self._percent(far),
+                near=self._percent(chances[0]),
+                far=self._percent(chances[-1]),
             )
-            for name, (near, far) in found.items()
+            for name, chances in found.items()
         ]
         conditions = conditions_of(self._sayings, replace(config, sensor="perfect"))
-        text = self._say(
+        return self._say(
             "detection",
-            "told",
+            "told" if len(metres) > 1 else "told_at",
             a=self._sayings.say("words", "a", kind),
             near=self._sayings.number(metres[0]),
-            far=self._sayings.number(metres[1]),
+            far=self._sayings.number(metres[-1]),
             conditions=conditions or self._sayings.say("sensing_compared", "plain"),
             listed=self._sayings.listed(listed),
         )
-        return text, {"kind": kind, "metres": metres, "chances": found}
 
     def _combining(self, state: SimState) -> tuple[str, Json]:
         fused = state.config.sensor == "fusion"

@@ -41,6 +41,8 @@ class SessionFacts:
             "emergency": self._emergency,
             "traffic_rules": self._traffic_rules,
             "runs_needed": self._runs_needed,
+            "keys": self._keys,
+            "counting": self._counting,
         }[str(asked.ask.what)]
         text, facts = tell(asked)
         return plain(self._sayings, asked.ask, asked.timeline.state, text) | {"what": asked.ask.what} | facts
@@ -118,6 +120,43 @@ class SessionFacts:
             doubt=self._sayings.number(round(100 - confidence, 2)),
         )
         return told, {"runs": runs, "confidence": confidence / 100, "rate": rate / 100}
+
+    def _keys(self, asked: Asked) -> tuple[str, Json]:
+        """Which keys drive on the page, after the one that was asked about."""
+        words = (asked.supposes or "").split()
+        asked_for = next(
+            (each for each in words if each in self._sayings.words("session_facts", "keys_of")), None
+        )
+        told = [self._say("keys_of", asked_for)] if asked_for is not None else []
+        told.append(self._say("keys", "drive"))
+        if asked.timeline.state.mode is not Mode.MANUAL:
+            told.append(
+                self._say(
+                    "keys", "not_by_hand", example=self._sayings.say("world_rules", "by_hand", "example")
+                )
+            )
+        return " ".join(told), {"key": asked_for}
+
+    def _counting(self, asked: Asked) -> tuple[str, Json]:
+        """How the ends of drives are counted, and that it does not matter who drives; yes or no first."""
+        metrics = asked.timeline.state.metrics
+        words = (asked.supposes or "").split()
+        order = ["hand", "ends"] if "hand" in words else ["ends", "hand"]
+        told = [Part(rank, self._say("counting", key)) for rank, key in enumerate(order)]
+        if "hand" in words or "stuck" in words:
+            told.insert(0, Part(0, self._say("counting", "yes")))
+        if metrics.episodes:
+            now = self._say(
+                "counting",
+                "now",
+                successes=metrics.successes,
+                crashes=metrics.crashes,
+                stuck=metrics.stuck,
+                episodes=metrics.episodes,
+            )
+            told.append(Part(2, now))
+        counted = {"successes": metrics.successes, "crashes": metrics.crashes, "stuck": metrics.stuck}
+        return within(told), counted
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("session_facts", *keys, **parts)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 from service.contract.encode.sight import sensing_json, weather_effect_json
@@ -11,11 +12,14 @@ from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
+from service.narration.sensing_compared import conditions_said
 from service.narration.values import conditions_of
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
-from sim.explain.sensing import Reach, Sensing, sensing
+from sim.explain.misperception import NONE
+from sim.explain.sensing import Reach, Sensing, reach, sensing
 from sim.explain.weather_effect import CLEAR, WeatherEffect, weather_effect
+from sim.perceive import sensor_named
 from sim.types import PLACEABLE, Kind, Outcome
 from sim.world import Thing
 
@@ -40,12 +44,13 @@ class Sights:
                 return plain(self._sayings, ask, state, not_so(self._sayings, error.code, error.facts))
             text = self._weather(effect, asked)
             return plain(self._sayings, ask, state, text) | {"what": ask.what} | weather_effect_json(effect)
+        if ask.what == "range":
+            return self._range_asked(asked)
         found = sensing(state)
         tell = {
             "phantoms": self._phantoms,
             "missed": self._missed,
             "truth": self._truth,
-            "range": self._range,
             "blind": self._blind,
         }[str(ask.what)]
         return plain(self._sayings, ask, state, tell(found)) | {"what": ask.what} | sensing_json(found)
@@ -91,22 +96,38 @@ class Sights:
             told.append(Part(1, self._phantoms(found)))
         return within(told)
 
+    def _range_asked(self, asked: Asked) -> Json:
+        """The range of the sensor and in the conditions that are named, else of the present ones."""
+        ask, state = asked.ask, asked.timeline.state
+        config, supposed = conditions_said(state.config, (asked.supposes or "").split())
+        if ask.value is not None:
+            config = replace(config, sensor=str(ask.value))
+        if config == state.config:
+            there = sensing(state)
+            facts = sensing_json(there)
+        else:
+            faithful = sensor_named(config.sensor).faithful
+            found = None if faithful else reach(config)
+            there, facts = Sensing(replace(state, config=config), faithful, found, NONE, 0), Json()
+        text = self._range(there)
+        return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts | supposed
+
     def _range(self, found: Sensing) -> str:
         """How far it detects anything, and up to where half of the looks find a car or a pothole."""
-        config, reach = found.state.config, found.reach
+        config, reached = found.state.config, found.reach
         if found.faithful:
             metres = self._metres(found.state.world.road.rows, found)
             return self._say("range", "faithful", metres=metres)
-        if reach is None:
+        if reached is None:
             return self._say("range", "unknown", sensor=config.sensor)
         told = self._say(
             "range",
             "limit",
             conditions=conditions_of(self._sayings, config),
-            metres=self._sayings.number(round(reach.metres, 1)),
-            cells=self._say("cells", _count(reach.cells), count=reach.cells),
+            metres=self._sayings.number(round(reached.metres, 1)),
+            cells=self._say("cells", _count(reached.cells), count=reached.cells),
         )
-        return " ".join([told, *(self._half(kind, reach, found) for kind in (Kind.VEHICLE, Kind.POTHOLE))])
+        return " ".join([told, *(self._half(kind, reached, found) for kind in (Kind.VEHICLE, Kind.POTHOLE))])
 
     def _half(self, kind: Kind, reach: Reach, found: Sensing) -> str:
         a = self._sayings.say("words", "a", kind)

@@ -11,7 +11,7 @@ from service.sessions.facts import Asked
 from sim.config import COUNTS
 from sim.perceive.registry import sensor_named
 from sim.state import SimState
-from sim.types import KINDS, PLACEABLE, Kind
+from sim.types import HAZARDS, KINDS, PLACEABLE, Kind
 
 
 class WorldFacts:
@@ -37,8 +37,11 @@ class WorldFacts:
             "points": self._points,
             "behind": self._behind,
             "heed": self._heed,
-        }[str(ask.what)]
-        text, facts = tell(state)
+        }
+        if ask.what == "obstacles":
+            text, facts = self._obstacles((asked.supposes or "").split())
+        else:
+            text, facts = tell[str(ask.what)](state)
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
 
     def _tick_order(self, state: SimState) -> tuple[str, Json]:
@@ -143,6 +146,21 @@ class WorldFacts:
     def _rule(self, name: str, share: float) -> str:
         key = "some" if share else "none"
         return self._sayings.say("world", name, key, percent=self._percent(share))
+
+    def _obstacles(self, words: list[str]) -> tuple[str, Json]:
+        """What was asked first: whether they move or can be passed; then how barriers and potholes differ."""
+        key = next((each for each in ("move", "pass") if each in words), None)
+        told = [Part(0, self._say("obstacles", key))] if key is not None else []
+        told.append(Part(1 if key else 0, self._say("obstacles", "both")))
+        told += [Part(2 if key else 0, self._say("obstacles", kind.value)) for kind in HAZARDS]
+        return within(told), {
+            kind.value: {
+                "moves": kind.moves,
+                "occludes": KINDS[kind].occludes,
+                "holds_movers": KINDS[kind].holds_movers,
+            }
+            for kind in HAZARDS
+        }
 
     def _percent(self, share: float) -> str:
         return self._sayings.number(round(100 * share, 1))
