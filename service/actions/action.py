@@ -20,6 +20,7 @@ from service.actions.parameters import MAX_PARAMETERS, PhraseParameter, figure
 from service.actions.questions import (
     COUNTED,
     HISTORY_KEYS,
+    OF_OTHERS,
     QUESTIONS,
     WHAT_KEYS,
     WHATS,
@@ -158,6 +159,8 @@ class Ask:
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
         if self.about == "history":
             self._check_counted()
+        if self.about == "outlook" and self.kind is not None and self.what not in OF_OTHERS:
+            raise ValueError("of the time ahead, other road users alone are asked of a kind of things")
         if self.about == "sight":
             self._check_sight()
         if self.about == "what_if" and (self.kind is None) is (self.what in get_args(ScaleName)):

@@ -45,7 +45,10 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     **{(about, what): "state" for about in ("why", "why_not", "what_if") for what in WHATS[about]},
     **{
         ("history", what): "state"
-        for what in ("waited", "passed", "stopped", "lanes_used", "sighted", "noticed", "shares", "moving")
+        for what in (
+            *("waited", "passed", "stopped", "lanes_used", "sighted", "noticed", "shares", "moving"),
+            *("listed", "in_the_way", "advanced"),
+        )
     },
     **{("planners", what): "decision" for what in _OF_A_DECISION},
     **{("planners", what): "none" for what in get_args(PlannersName) if what not in _OF_A_DECISION},

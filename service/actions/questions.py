@@ -52,18 +52,24 @@ OutlookName = Literal[
     "safest",
     "next_stop",
     "next_change",
+    "others",
+    "crossing",
 ]
 """What of the time ahead is asked about.
 
 `way`: whether any way leads to the goal; `wait`: how long the vehicle stays where it is;
 `free`: which moves meet nothing now; `matters`: what the coming move hangs on; `risk`: how safe it is now;
 `coming`: what happens in the next ticks or seconds; `safest`: which move is; `next_stop`,
-`next_change`: when the vehicle will next stop or change lanes.
+`next_change`: when the vehicle will next stop or change lanes; `others`: where the cars and people on foot
+go, or those of a kind; `crossing`: which of them come into the lane ahead of the vehicle.
 """
-BlameName = Literal["fault", "too_late", "foreseen", "avoidable", "human", "first_seen"]
+BlameName = Literal[
+    "fault", "too_late", "foreseen", "avoidable", "human", "first_seen", "the_other", "other_could"
+]
 """What about a crash is asked.
 
-`human`: whether a person would have crashed; `first_seen`: since when what was hit was seen.
+`human`: whether a person would have crashed; `first_seen`: since when what was hit was seen; `the_other`:
+where what was hit came from, and how fast; `other_could`: whether it could have kept clear.
 """
 PlannerFactName = Literal[
     "lookahead",
@@ -132,6 +138,10 @@ HistoryName = Literal[
     "noticed",
     "shares",
     "moving",
+    "listed",
+    "in_the_way",
+    "advanced",
+    "end",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -147,7 +157,9 @@ none; `made`: how often it made a move; `ended`: how episodes of the session end
 is detected, or the things of a kind, or all; `overlooked`: what was driven past and never detected;
 `lost_sight`: what was detected ahead and then was not; `noticed`: what is detected at a tick and was not at
 the one before; `shares`: how many moves of each kind were made;
-`moving`: the stretches without a stop.
+`moving`: the stretches without a stop; `listed`: the moves in their order; `in_the_way`: the moves other than
+straight on that were for something; `advanced`: how many rows it came ahead; `end`: how, when and where the
+drive ended.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -222,13 +234,15 @@ WorldFactName = Literal[
     "points",
     "behind",
     "obstacles",
+    "heed",
 ]
 """What is asked of how this world is made.
 
 `tick_order`: who moves first; `sharing`: whether others collide; `fixtures`: traffic lights, horns and the
 like; `endings`: what follows an end; `road_made`: how roads are drawn; `constancy`: whether the weather
 changes; `contact`: what counts as a crash; `points`: whether there are any; `behind`: whether anything comes
-from behind; `obstacles`: what sets barriers and potholes apart, and whether they move or can be passed.
+from behind; `obstacles`: what sets barriers and potholes apart, and whether they move or can be passed;
+`heed`: whether others see the ego and react to it.
 """
 SessionFactName = Literal[
     "picture",
@@ -404,7 +418,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
         ("what", "which", "move", "tick", "ticks", "seconds", "count"), ("what", "which"), runs_episodes=True
     ),
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
-    "outlook": QuestionTraits(("what", "move", "ticks", "seconds"), ("what",), runs_episodes=True),
+    "outlook": QuestionTraits(("what", "move", "ticks", "seconds", "kind"), ("what",), runs_episodes=True),
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
     "planners": QuestionTraits(
         ("what", "planners", "planner", "tick", "ticks"), ("what",), runs_episodes=True
@@ -414,6 +428,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "sight": QuestionTraits(("what", "kind", "value", "move"), ("what",), runs_episodes=True),
     "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
+
+OF_OTHERS: Final = ("others", "crossing")
+"""What of the time ahead may be asked of other road users of one kind."""
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
     "why": (*get_args(MomentName), *get_args(SideName)),
@@ -448,6 +465,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "safest": (frozenset(),),
     "next_stop": (frozenset(),),
     "next_change": (frozenset(),),
+    **dict.fromkeys(OF_OTHERS, (frozenset(),)),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),
     **dict.fromkeys(get_args(PolicyName), (frozenset(), frozenset(("tick",)))),
@@ -492,6 +510,9 @@ COUNTED: Final[Mapping[str, frozenset[str]]] = {
     "overlooked": frozenset(("kind",)),
     "closest_call": frozenset(("kind",)),
     "shares": frozenset(("part", "lane", "parameter", "value")),
+    "listed": frozenset(("part", "lane", "parameter", "value")),
+    "in_the_way": frozenset(("kind", "want", "part", "lane", "parameter", "value")),
+    "advanced": frozenset(("part",)),
 }
 """What is counted over a drive, and the conditions that each takes beside ticks."""
 
@@ -515,7 +536,8 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "made": tuple(each | {"move"} for each in _STRETCHES),
     **dict.fromkeys(("first_half", "second_half", "sighted", "overlooked", "lost_sight"), (frozenset(),)),
     "noticed": (frozenset(), frozenset(("tick",))),
-    **dict.fromkeys(("shares", "moving"), _STRETCHES),
+    **dict.fromkeys(("shares", "moving", "listed", "in_the_way", "advanced"), _STRETCHES),
+    "end": (frozenset(),),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

@@ -61,6 +61,9 @@ _STEADY = verbs_where(lambda traits: traits.idempotent)
 _EMPHASIS = ("pause", "stop", "and")
 """Separators after which they may be said again for emphasis; "pause, then pause" is two."""
 
+_JOINED = frozenset(("place", "thing"))
+"""Heads of concepts of which several in one request are named together in its choices."""
+
 
 class Asking(Refusing):
     """Makes the questions of one utterance."""
@@ -164,12 +167,17 @@ class Asking(Refusing):
         if ask is None:
             return self._refuse([self._plain], ())
         said: dict[str, str] = {}
+        first: dict[str, int] = {}
         for edge in clause.filled.slots:
             written = self._written(edge.start, edge.end)
             if edge.part:  # only half of it stands here: "divide ... by two"
                 typical = self._language.data.lexicon.typical.get((edge.concept, repr(edge.sense.value)))
                 written = " ".join(typical or (written,))
-            said[edge.sense.concept.partition(".")[0]] = written
+            head = edge.sense.concept.partition(".")[0]
+            if head in first and head in _JOINED and not edge.part:  # "lanes 2 to 4 at row 12" is one place
+                written = self._written(first[head], edge.end)
+            first.setdefault(head, edge.start)
+            said[head] = written
             if isinstance(edge.sense.value, Amount):
                 noun = self._tokens[edge.end - 1]
                 said["noun"] = self._plain[noun.start : noun.end]

@@ -62,8 +62,13 @@ class Patterns:
         macros: Mapping[str, str],
         units: Mapping[str, Mapping[str, float]],
         kinds: Mapping[str, Mapping[str, str]],
+        texts: frozenset[str] = frozenset(),
     ) -> None:
-        """`units`: by slot, words and what each is in the slot's unit; `kinds`: by slot and kind, words."""
+        """`units`: by slot, words and what each is in the slot's unit; `kinds`: by slot and kind, words.
+
+        `texts`: slots for any words; their value is the stretch of tokens `(start, end)`.
+        """
+        self._texts = texts
         self.words: set[str] = set()
         self._macros = {name: self.read(text) for name, text in macros.items()}
         self._units = {
@@ -163,6 +168,9 @@ class Patterns:
             for words, kind in self._kinds[name]:
                 for end, _ in self.matches(words, said, at):
                     yield end, kind
+            return
+        if name in self._texts:
+            yield from ((end, (at, end)) for end in range(at + 1, len(said.tokens) + 1))
             return
         if name == "nth":
             if at in said.ordinals:

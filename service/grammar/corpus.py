@@ -226,12 +226,14 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "history", "what": what}
     for what in ("passed", "stopped", "closest_call"):
         yield {"do": "ask", "about": "history", "what": what, "kind": "pedestrian"}
-    for what in ("sighted", "overlooked", "lost_sight", "noticed", "shares"):
+    for what in ("sighted", "overlooked", "lost_sight", "noticed", "shares", "listed", "advanced", "end"):
         yield {"do": "ask", "about": "history", "what": what}
     for want in ("first", "last", "share"):
         yield {"do": "ask", "about": "history", "what": "sighted", "want": want}
     for want in ("first", "whether"):
         yield {"do": "ask", "about": "history", "what": "sighted", "want": want, "kind": "barrier"}
+    yield {"do": "ask", "about": "history", "what": "in_the_way", "want": "whether", "kind": "vehicle"}
+    yield {"do": "ask", "about": "history", "what": "advanced", "ticks": 10}
     yield {"do": "ask", "about": "history", "what": "noticed", "tick": 5}
     yield {"do": "ask", "about": "history", "what": "closest_call", "count": 2}
     yield {"do": "ask", "about": "history", "what": "since", "seconds": 2.5}
@@ -289,6 +291,8 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "sight", "what": "detection", "kind": "pedestrian"}
     yield {"do": "ask", "about": "sight", "what": "belief", "kind": "pothole"}
     yield {"do": "ask", "about": "sight", "what": "sensor_fault", "value": "radar"}
+    yield {"do": "ask", "about": "outlook", "what": "others", "kind": "vehicle"}
+    yield {"do": "ask", "about": "outlook", "what": "crossing", "kind": "pedestrian"}
     yield {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3}
     yield {"do": "ask", "about": "outlook", "what": "coming", "seconds": 2.5}
     for what in (*WHATS["blame"], "own"):

@@ -13,6 +13,7 @@ from service.grammar.frame_use import idle
 from service.grammar.frames import Frame, FrameError, read_frames
 from service.grammar.lexicon import Lexicon
 from service.grammar.numbers import NumberWords
+from service.grammar.other_words import OtherWords
 from service.grammar.patterns import PatternError, read_macros
 from service.grammar.rule_words import RuleWords
 from service.grammar.tokens import Contractions
@@ -73,6 +74,8 @@ class LanguageData:
     """how questions are answered, and what begins a sentence that leans on the one before"""
     rules: RuleWords
     """how rules are said"""
+    others: OtherWords
+    """sentences that are read as others, or refused for a known reason"""
     nouns: Mapping[str, str]
     """for each concept that may only stand with a value of its own kind ("weather"), that kind"""
     free: frozenset[str]
@@ -95,6 +98,7 @@ class Documents:
     sentences: Mapping[str, Any]
     answers: Mapping[str, Any]
     rules: Mapping[str, Any]
+    others: Mapping[str, Any]
     frames: Mapping[str, Any]
     """`sets`, `agree`, and the `frames` of all intents together"""
 
@@ -131,7 +135,8 @@ def _documents(folder: Path) -> Documents:
             if name in frames["frames"]:
                 raise FrameError(f"frame {name} is there twice")
             frames["frames"][name] = content
-    said_back, answers, rules = (folder / f"{name}.yaml" for name in ("sentences", "answers", "rules"))
+    named = ("sentences", "answers", "rules", "other_words")
+    said_back, answers, rules, others = (folder / f"{name}.yaml" for name in named)
     return Documents(
         words=words,
         numbers=read_yaml(folder / "numbers.yaml"),
@@ -139,6 +144,7 @@ def _documents(folder: Path) -> Documents:
         sentences=read_yaml(said_back) if said_back.is_file() else {},
         answers=read_yaml(answers) if answers.is_file() else {},
         rules=read_yaml(rules) if rules.is_file() else {},
+        others=read_yaml(others) if others.is_file() else {},
         frames=frames,
     )
 
@@ -184,6 +190,7 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         number_words=numbers.words(),
         answers=answers,
         rules=rules,
+        others=OtherWords.from_data(documents.others),
         nouns=documents.frames["agree"],
         free=free,
         idle=idle(frames, free),

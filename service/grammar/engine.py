@@ -95,7 +95,8 @@ class Language:
             return Refused(text, "not_understood", self.data.messages["too_involved"])
         if not isinstance(parsed, Refused):
             return parsed
-        return self._rules.read(text, topic, work) or read_teaching(self, text, topic, work) or parsed
+        ruled = self._rules.read(text, topic, work) or read_teaching(self, text, topic, work)
+        return ruled or self.data.others.read(self, text, parsed, topic, work)
 
     def meaning(self, text: str, topic: Topic, work: WorkBudget) -> tuple[Action, ...] | None:
         """What a text means that is a part of another; None where that is not certain."""

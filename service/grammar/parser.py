@@ -29,7 +29,7 @@ from service.grammar.paths import ALLOWS, SEPARATOR
 from service.grammar.pointing import add_pointing
 from service.grammar.references import add_referents
 from service.grammar.refusing import is_impossible
-from service.grammar.same_sentence import asked_of_it, named_before
+from service.grammar.same_sentence import asked_of_it, beside_what_is_named, named_before
 from service.grammar.seconds_in_ticks import count_seconds_in_ticks, steps_in_seconds
 from service.grammar.shared_place import place_for_all
 from service.grammar.small_talk import same_again, small_talk
@@ -101,6 +101,10 @@ class Reading(Asking):
             actions = load(values)
         except ValidationError:
             return self._impossible(clauses)
+        if (beside := beside_what_is_named(self._lattice, values)) is not None:
+            phrase = self._written(beside.start, beside.end)
+            message = self._messages["together_or_apart"].format(phrase=phrase)
+            return self._refusal("not_understood", message, (phrase,))
         if self._topic.removed and clauses[0].leans:
             return self._more_of_what(actions) if asking else self._refuse([self._plain], ())
         if (asked := asked_of_it(self._lattice, clauses)) is not None:
@@ -147,8 +151,9 @@ class Reading(Asking):
         if lost := self._lost(part):
             return self._refuse(lost, understood)
         failed = self._written(part.start, part.end)
-        if any(is_impossible(edge.sense.value) for edge in self._lattice.between(part.start, part.end)):
-            return self._refusal("impossible", self._messages["impossible"].format(phrase=failed), (failed,))
+        said = [edge.sense.value for edge in self._lattice.between(part.start, part.end)]
+        if impossible := [each for each in said if is_impossible(each)]:
+            return self._impossible_number(failed, impossible)
         return self._refuse([failed], understood, asking=asking, failed=part)
 
     def _said_again(self, divided: Divided) -> Parse | None:

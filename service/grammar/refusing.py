@@ -46,6 +46,12 @@ class Refusing(Utterance):
                     return self._messages[key].format(phrase=phrase, limit=told)
         return self._messages["impossible"].format(phrase=phrase)
 
+    def _impossible_number(self, phrase: str, values: Sequence[object]) -> Refused:
+        """The refusal of a request with a number that no count or place can be."""
+        parts = any(isinstance(each, Amount) and isinstance(each.count, float) for each in values)
+        key = "not_whole" if parts and "not_whole" in self._messages else "impossible"
+        return self._refusal("impossible", self._messages[key].format(phrase=phrase), (phrase,))
+
     def _gap(self, unknown: Sequence[int], failed: Fragment | None) -> Gap | None:
         """The smallest stretches that hold what is unknown, or make a part fail, and what is left without."""
         if not self._suggests:

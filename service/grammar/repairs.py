@@ -20,7 +20,7 @@ from service.grammar.paths import SEPARATOR
 from service.grammar.span_patterns import REPAIR, SKIPPED, SpanPattern, ends_of_pieces, steps_of
 from service.grammar.tokens import Token
 from service.grammar.work_budget import WorkBudget
-from sim.actions import Add
+from sim.actions import Add, Remove, SetCount
 
 ALWAYS = "always"
 """Value of those that do wherever they stand: "I mean"."""
@@ -140,9 +140,32 @@ class Repair:
             return self._without(read)
         if self._value == ALWAYS and self._alike(read) is False:
             return []
-        if (found := self._in_place(read)) or (found := self._instead_of_all(read)):
+        if found := self._in_place(read):
+            return self._or_so_many_more(found, read)
+        if found := self._instead_of_all(read):
             return found
         return [] if self._value != PERHAPS or self._alike(read) is not False else None
+
+    def _or_so_many_more(self, found: list[Choice], read: Read) -> list[Choice]:
+        """With the same request of another number, where a total would stand for what is added or removed.
+
+        "Add five cars, no, make it three" may be three more, or three in all.
+        """
+        before = read(self._written(0, self._end))
+        some = isinstance(before, Understood) and any(
+            isinstance(each, Add | Remove) for each in before.actions
+        )
+        if not some or not any(isinstance(each, SetCount) for one in found for each in one.actions):
+            return found
+        inside = self._lattice.between(self._again, self._tail)
+        numbers = [edge.start for edge in inside if edge.concept == NUMBER and edge.end == self._tail]
+        if not numbers:
+            return found
+        again, self._again = self._again, min(numbers)
+        more = self._in_place(read)
+        self._again = again
+        known = [each.actions for each in found]
+        return [*found, *(each for each in more if each.actions not in known)]
 
     def _without(self, read: Read) -> list[Choice]:
         """The reading without what is not wanted: "use Dijkstra instead of A*", in either order."""

@@ -358,6 +358,8 @@ class RuleReading:
             text = f"{self._words.asks_as} {text}"
         parsed = self._language.read(text, self._topic, self._work, asking=True)
         if isinstance(parsed, Refused):
+            parsed = self._language.data.others.read(self._language, text, parsed, self._topic, self._work)
+        if isinstance(parsed, Refused):
             return []
         if isinstance(parsed, Understood):
             return [parsed.actions]

@@ -7,8 +7,9 @@ request is done.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
+from typing import Any
 
 from service.grammar.clause import Clause, Divided
 from service.grammar.composition import asks
@@ -20,6 +21,13 @@ ONE = "one"
 
 NAMED = ("param", "view", "term", "asked_about")
 """Concepts of what such a word may stand for."""
+
+
+SIDES = ("side", "place")
+"""Concepts of words for a side, with what it is seen from."""
+
+MOST_BEFORE = 5
+"""Tokens before the word in the longest of them."""
 
 
 def named_before(lattice: Lattice, divided: Divided) -> tuple[Edge, Edge] | None:
@@ -50,3 +58,29 @@ def _named_in(lattice: Lattice, before: Clause, start: int, end: int) -> tuple[E
     if len({word.start for word in words}) != 1 or len(named) != 1:
         return None
     return min(words, key=lambda word: word.end), named[0]
+
+
+def beside_what_is_named(lattice: Lattice, values: Sequence[Mapping[str, Any]]) -> Edge | None:
+    """The words for a side of "it" in a request after one about things: "a car and a cone behind it".
+
+    It is a side of the vehicle, or of what was spoken of before, only because the thing that is named in the
+    same sentence is not there yet.
+    """
+    if REFERS not in lattice.concepts or not any("kind" in value for value in values[:1]):
+        return None
+    if all(value["do"] == "ask" or "side" not in (value.get("where") or {}) for value in values[1:]):
+        return None
+    pointing = [e for e in lattice.all() if e.concept == REFERS and _points_at_one(e.sense.value)]
+    if len({word.start for word in pointing}) != 1:
+        return None  # "a cone in front of it and a car behind it": of what was spoken of before
+    for word in pointing:
+        for at in range(max(0, word.start - MOST_BEFORE), word.start + 1):
+            for edge in lattice.edges[at]:
+                its = edge is word and isinstance(word.sense.value, Mapping)
+                if edge.end == word.end and (its or (at < word.start and edge.concept in SIDES)):
+                    return edge
+    return None
+
+
+def _points_at_one(value: object) -> bool:
+    return value == ONE or (isinstance(value, Mapping) and "its" in value)

@@ -31,6 +31,8 @@ ROAD_SIZE = frozenset({"columns", "rows"})
 TICK = "tick"
 MEANS = "means"
 
+THEN_PREFACE = "then_preface"
+"""What was done at a tick, told before a question about another move: its comma ends no sentence."""
 _OPENING = frozenset((WHAT_IF, IF, THEN_WHAT, TEACH))
 """Where none of these is said, there is no subordinate clause."""
 
@@ -142,8 +144,10 @@ def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[str, int, i
         return whole
     found: list[tuple[str, int, int]] = []
     after, begin, conditional = PAUSE, start, begins.asks(start)
-    for edge in sorted(lattice.between(start, end), key=lambda each: (each.start, -each.end)):
-        if edge.concept != SEPARATOR or edge.start < begin:
+    edges = sorted(lattice.between(start, end), key=lambda each: (each.start, -each.end))
+    told = {at for edge in edges if edge.concept == THEN_PREFACE for at in range(edge.start, edge.end)}
+    for edge in edges:
+        if edge.concept != SEPARATOR or edge.start < begin or edge.start in told:
             continue
         if begins.teaches(edge.end):
             return whole

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from pydantic import ValidationError
 
@@ -109,6 +109,16 @@ class Phrases:
         return at, numbers
 
 
+class Now(Protocol):
+    """The road as it is while a sentence is said."""
+
+    def count(self, kind: str) -> int:
+        """How many things of a kind there are."""
+
+    def value(self, parameter: str) -> int | float | str | None:
+        """The value of a setting; None where it has none that can be set."""
+
+
 @dataclass(frozen=True, slots=True)
 class Topic:
     """What has been spoken of."""
@@ -170,6 +180,8 @@ class Topic:
     """how many lanes the road has: "the two right lanes" """
     step_seconds: float = 0.5
     """how long a tick is: "go back 5 seconds" """
+    now: Now | None = field(default=None, compare=False, repr=False)
+    """the road that is spoken of: "double the cars", "make it rain for 10 ticks" """
 
 
 ALONE = Topic()

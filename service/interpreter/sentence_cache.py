@@ -18,7 +18,7 @@ from threading import Lock
 from typing import Any
 
 from service.grammar.parse_types import Parse, Understood
-from service.grammar.topic import Phrases, Topic
+from service.grammar.topic import Now, Phrases, Topic
 
 MOST = 1_024
 """Sentences that are kept."""
@@ -27,6 +27,21 @@ LONGEST = 200
 
 _FIELDS = tuple(each.name for each in fields(Topic))
 _PLAIN = (str, bool, int, type(None))
+
+
+class _RecordingNow:
+    """A road that is spoken of, which records that it was looked at: what depends on it is not kept."""
+
+    def __init__(self, now: Now, seen: dict[str, Any]) -> None:
+        self._now, self._seen = now, seen
+
+    def count(self, kind: str) -> int:
+        self._seen["now"] = self._now
+        return self._now.count(kind)
+
+    def value(self, parameter: str) -> int | float | str | None:
+        self._seen["now"] = self._now
+        return self._now.value(parameter)
 
 
 class _RecordingTopic(Topic):
@@ -41,6 +56,8 @@ class _RecordingTopic(Topic):
                 seen = super().__getattribute__("_seen")
             except AttributeError:  # made of another by `replace`, which read all attributes of that
                 return found
+            if name == "now" and found is not None:
+                return _RecordingNow(found, seen)
             seen[name] = found
         return found
 

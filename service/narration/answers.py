@@ -7,7 +7,13 @@ from dataclasses import replace
 from typing import Final, get_args
 
 from service.actions import Ask, dump
-from service.actions.questions import PlannerFactName, SessionFactName, WorldFactName, WorldRuleName
+from service.actions.questions import (
+    OF_OTHERS,
+    PlannerFactName,
+    SessionFactName,
+    WorldFactName,
+    WorldRuleName,
+)
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
@@ -20,9 +26,11 @@ from service.narration.confidence import Confidences
 from service.narration.course import Courses
 from service.narration.details import Details
 from service.narration.drive_counts import DriveCounts
+from service.narration.drive_end import DriveEnds
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
 from service.narration.history import History
+from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
@@ -31,6 +39,7 @@ from service.narration.necessity import Necessities
 from service.narration.next import Next
 from service.narration.other_seeds import OtherSeeds
 from service.narration.others import Others
+from service.narration.others_ahead import AllOthers
 from service.narration.planner_difference import PlannerDifferences
 from service.narration.planner_facts import PlannerFacts
 from service.narration.planner_parting import PlannerPartings
@@ -98,7 +107,13 @@ class Answers:
                 "tight",
                 "shares",
                 "moving",
+                "listed",
+                "in_the_way",
+                "advanced",
             ),
+            DriveEnds(sayings): ("end",),
+            AllOthers(sayings): OF_OTHERS,
+            HitMoversTold(sayings): ("the_other", "other_could"),
             PastSightings(sayings): ("sighted", "overlooked", "lost_sight", "noticed"),
             Necessities(sayings): ("needed",),
             ComingTurns(sayings): ("next_stop", "next_change"),

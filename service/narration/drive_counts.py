@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from itertools import groupby
 from typing import Final
 
 from service.actions import Ask
@@ -12,8 +13,10 @@ from service.narration.answerer import Json, plain
 from service.narration.charges import in_seconds
 from service.narration.futures_told import yes_and_no
 from service.narration.inflection import capital
+from service.narration.move_list import moves_told
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
+from sim.explain.advance import Advance, advance
 from sim.explain.facts import QuestionError
 from sim.explain.occurrences import Event, Occurrence, Occurrences, Query, Stretch, occurrences
 from sim.explain.tight_moments import TightMoments, tight_moments
@@ -24,6 +27,8 @@ MOST_TICKS_TOLD: Final = 6
 """Ticks that are told one by one in a count; the facts have all."""
 MOST_TICKS_LISTED: Final = 30
 """The same where a list is wanted."""
+MOST_RUNS_LISTED: Final = 16
+"""Runs of one move that are listed in their order; the facts have all."""
 
 _EVENTS: Final = {
     "stopped": Event.STOP,
@@ -32,6 +37,8 @@ _EVENTS: Final = {
     "ended": Event.END,
     "lanes_used": Event.DRIVE,
     "shares": Event.MOVE,
+    "listed": Event.MOVE,
+    "in_the_way": Event.MOVE,
     "moving": Event.GO,
 }
 _OUTCOMES: Final = {None: None, "crashes": Outcome.CRASH, "successes": Outcome.SUCCESS}
@@ -54,6 +61,8 @@ class DriveCounts:
             text, facts = self._sayings.say("history", "not_so_far_back", now=timeline.tick), Json()
         else:
             try:
+                if ask.what == "advanced":
+                    return self._advanced(ask, timeline)
                 found = occurrences(timeline, _query(ask, timeline))
             except QuestionError as error:
                 text, facts = self._sayings.say("history", error.code, **error.facts), Json()
@@ -72,7 +81,9 @@ class DriveCounts:
             return self._lanes(asked, found, where)
         if ask.what == "shares":
             return self._shares(found, where)
-        narrowed = where or ask.want or ask.move or ask.what in ("made", "ended", "moving")
+        if ask.what == "listed":
+            return self._listed(found, where)
+        narrowed = where or ask.want or ask.move or ask.what in ("made", "ended", "moving", "in_the_way")
         if ask.what == "stopped" and not narrowed:
             return self._stops(found, ask.kind, timeline)
         if ask.what == "lane_changes" and not narrowed and ask.kind is None:
@@ -83,15 +94,45 @@ class DriveCounts:
     def _shares(self, found: Occurrences, where: str) -> str:
         """How many moves of each kind; those that nobody counts as a diagonal are to a side."""
         counts = Counter(each.move for each in found.found if each.move is not None)
+        total = sum(counts.values())
         told = [
-            self._say("made_of", count=counts[move], name=self._sayings.move(move, "name"))
+            self._say(
+                "made_of",
+                count=counts[move],
+                name=self._sayings.move(move, "name"),
+                percent=self._sayings.number(round(100 * counts[move] / total)),
+            )
             for move in MOVES
             if counts[move]
         ]
         here = capital(where or self._say("where", "episode"))
-        total = sum(counts.values())
         key = "one" if total == 1 else "many"
         return self._say("shares", key, where=here, count=total, parts=self._sayings.joined(told))
+
+    def _listed(self, found: Occurrences, where: str) -> str:
+        """The moves in their order; those alike that follow each other are counted."""
+        runs = [(move, len(list(alike))) for move, alike in groupby(each.move for each in found.found)]
+        told = moves_told(
+            self._sayings, [move for move, count in runs[:MOST_RUNS_LISTED] for _ in range(count) if move]
+        )
+        here = capital(where or self._say("where", "episode"))
+        more = sum(count for _, count in runs[MOST_RUNS_LISTED:])
+        rest = self._say("listed_more", count=more) if more else ""
+        key = "one" if len(found.found) == 1 else "many"
+        listed = self._say("listed", key, where=here, count=len(found.found), moves=told)
+        return f"{listed} {rest}".strip()
+
+    def _advanced(self, ask: Ask, timeline: Timeline) -> Json:
+        """How many rows nearer to the goal it came."""
+        found = advance(timeline, _query(ask, timeline))
+        where = capital(self._where(ask, found) or self._say("where", "episode"))
+        key = "none" if not found.rows else "one" if found.rows == 1 else "many"
+        metres = self._sayings.number(found.rows * timeline.state.config.cell_m)
+        seconds = self._seconds(found.ticks, timeline)
+        parts = {"where": where, "rows": found.rows, "metres": metres}
+        text = self._say("advanced", key, seconds=seconds, **parts) if found.ticks else self._say("not_begun")
+        facts = {"first": found.first, "last": found.last, "driven": found.ticks, "rows": found.rows}
+        return plain(self._sayings, ask, timeline.state, text) | {"what": ask.what} | facts
 
     def _composed(self, asked: Asked, found: Occurrences, where: str) -> list[Part]:
         """What is wanted of all that was found, with the conditions it was looked for under."""
@@ -149,7 +190,7 @@ class DriveCounts:
             said = self._say(reason, what=said, things=self._sayings.things(ask.kind, 2))
         return said
 
-    def _where(self, ask: Ask, found: Occurrences) -> str:
+    def _where(self, ask: Ask, found: Occurrences | Advance) -> str:
         """The stretch and the conditions that were named; empty where none was."""
         told = []
         if ask.ticks is not None:
@@ -295,8 +336,9 @@ def _query(ask: Ask, timeline: Timeline) -> Query:
     part = Stretch.EPISODE if ask.part is None else Stretch(ask.part)
     alone = ask.what == "lanes_used" or (ask.what == "stopped" and _only_of_a_kind(ask))
     return Query(
-        event=_EVENTS[str(ask.what)],
+        event=_EVENTS.get(str(ask.what), Event.DRIVE),
         move=ask.move,
+        straight=ask.what != "in_the_way",
         outcome=_OUTCOMES[ask.metric],
         cause=None if ask.kind is None or alone else Kind(ask.kind),
         first=first,

@@ -24,6 +24,8 @@ REPORT: Final = "/api/v1/evaluations/{id}/report"
 """Where the report of an evaluation is."""
 LEAST_P: Final = 1e-4
 """A probability below this is told as less."""
+MOST_DIGITS: Final = 4
+"""After the point, of a share in per cent that is nearly none or nearly all."""
 ALL, MOST, HALF = 1.0, 0.8, 0.5
 """Shares of failures from which a way of failing is told, and how."""
 
@@ -145,10 +147,14 @@ class EvaluationWords:
         return self._sayings.planner(name)
 
     def percent(self, share: float | None, digits: int = 1) -> str:
-        """A share in per cent, with no more digits than it takes."""
+        """A share in per cent, with no more digits than it takes; 0 and 100 only where it is none or all."""
         if share is None:
             return "–"
-        return self._sayings.number(float(f"{100 * share:.{digits}f}"))
+        told = float(f"{100 * share:.{digits}f}")
+        while told in (0.0, 100.0) and digits < MOST_DIGITS and 0.0 < share < 1.0:
+            digits += 1
+            told = float(f"{100 * share:.{digits}f}")
+        return self._sayings.number(told)
 
     def number(self, value: float | None, spec: str = ".2f") -> str:
         """A number in the marks of the language."""
@@ -270,12 +276,12 @@ class EvaluationWords:
                 self._say("possible", of=self._whole(possible["of"]), count=self._whole(possible["count"]))
             )
         told += self._failed(planner, summary)
-        told += self._time(figures)
+        told += self._time(figures, alike=summary["alike"])
         near = figures["close"]["near_misses"]
         if near["count"]:
             told.append(
                 self._say(
-                    "near",
+                    "near_alike" if summary["alike"] else "near",
                     count=self._whole(near["count"]),
                     of=self._whole(near["of"]),
                     ttc=self._sayings.number(TTC_S),
@@ -292,14 +298,13 @@ class EvaluationWords:
         parts = {"crashed": self._whole(crashed), "stuck": self._whole(stuck)}
         return [self._say("failed", form, pattern=self._pattern(planner, summary), **parts)]
 
-    def _time(self, figures: Json) -> list[str]:
+    def _time(self, figures: Json, *, alike: bool) -> list[str]:
         seconds, lost = figures["seconds"], figures["close"]["lost_s"]
         if seconds["mean"] is None:
             return []
         parts = {name: self.number(seconds[name], ".1f") for name in ("mean", "low", "high")}
-        if lost["mean"] is None:
-            return [self._say("time_only", **parts)]
-        return [self._say("time", lost=self.number(lost["mean"], ".1f"), **parts)]
+        known, form = ("time_only" if lost["mean"] is None else "time"), "_alike" if alike else ""
+        return [self._say(f"{known}{form}", lost=self.number(lost["mean"], ".1f"), **parts)]
 
     def _pattern(self, planner: str, summary: Json) -> str:
         """How most of the failures that were looked at came about; empty where there is no such way."""
@@ -355,9 +360,9 @@ class EvaluationWords:
             told.clear()
         if pair["more_runs"]:
             told.append(self._say("compare", "more", more=self._whole(pair["more_runs"])))
-        return " ".join([*told, *self._quicker(pair, first, second)])
+        return " ".join([*told, *self._quicker(pair, first, second, alike=summary["alike"])])
 
-    def _quicker(self, pair: Json, first: str, second: str) -> list[str]:
+    def _quicker(self, pair: Json, first: str, second: str, *, alike: bool) -> list[str]:
         seconds = pair["seconds"]
         if seconds is None:
             return []
@@ -373,7 +378,7 @@ class EvaluationWords:
         return [
             self._say(
                 "compare",
-                "quicker" if quicker else "slower",
+                ("quicker" if quicker else "slower") + ("_alike" if alike else ""),
                 first=first,
                 second=second,
                 seconds=self.number(abs(mean), ".1f"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from service.contract.encode.past import mover_json, way_of_mover_json
 from service.narration.answer_length import Part, most_words, within
 from service.narration.answerer import Json, not_so, plain
@@ -16,12 +18,20 @@ from sim.explain import QuestionError
 from sim.explain.other_movers import MoverMove, MoverReason, MoverWay, latest_move, mover_way
 from sim.rules.mover_boards import PERIODS
 from sim.session.errors import EditError
-from sim.session.pick import pick_things
+from sim.session.pick import ALL, pick_things
 from sim.state import SimState
 from sim.types import Move, is_ego, kind_of
+from sim.world import Thing
 
 NAMED_TICKS = 2
 """So many ticks ago things are still where they are pointed at; of longer ago their kinds are told."""
+
+
+def _away(run: SimState, thing: Thing) -> tuple[int, int, int, bool]:
+    """How far a thing is from the ego: beside it is nearer than diagonally ahead."""
+    column, row = run.world.road.cell(run.world.av)
+    across, along = abs(thing.cell[0] - column), abs(thing.cell[1] - row)
+    return max(across, along), across + along, across, thing.cell[1] > row
 
 
 class Others:
@@ -68,7 +78,11 @@ class Others:
         if which.kind == "av":
             return "av-2" if len(run.world.avs) > 1 else "av-1"
         parts = {name: getattr(which, name) for name in Where.__dataclass_fields__}
-        return pick_things(run, which.kind, 1, Where(**parts))[0].id
+        where = Where(**parts)
+        found = pick_things(run, which.kind, 1, where)
+        if where == Where(nearest=True):
+            found = sorted(pick_things(run, which.kind, ALL, Where()), key=partial(_away, run))
+        return found[0].id
 
     def _not_so(self, error: QuestionError, run: SimState) -> str:
         if error.code != "never_did":

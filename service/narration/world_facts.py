@@ -36,6 +36,7 @@ class WorldFacts:
             "contact": self._contact,
             "points": self._points,
             "behind": self._behind,
+            "heed": self._heed,
         }
         if ask.what == "obstacles":
             text, facts = self._obstacles((asked.supposes or "").split())
@@ -133,6 +134,18 @@ class WorldFacts:
         several = len(state.world.avs) > 1
         told = [self._say("behind", "several")] if several else [self._say("behind", "never")]
         return " ".join([*told, self._say("behind", "side")]), {"several": several}
+
+    def _heed(self, state: SimState) -> tuple[str, Json]:
+        """Whether others see the ego: they go by rules, in any weather."""
+        config = state.config
+        both = {name: getattr(config, name) for name in ("attentive", "courtesy")}
+        brakes = self._rule("brakes", both["attentive"])
+        gives = self._rule("gives_way", both["courtesy"])
+        return self._say("heed", brakes=brakes, gives=gives), {**both}
+
+    def _rule(self, name: str, share: float) -> str:
+        key = "some" if share else "none"
+        return self._sayings.say("world", name, key, percent=self._percent(share))
 
     def _obstacles(self, words: list[str]) -> tuple[str, Json]:
         """What was asked first: whether they move or can be passed; then how barriers and potholes differ."""

@@ -73,7 +73,8 @@ class SlotWords:
         words = _masked(tokens, spans)
         slots: dict[str, str] = {}
         binding: set[str] = set()
-        for span in spans:
+        # What the vehicle is called lends its words only where no other thing is named.
+        for span in sorted(spans, key=lambda span: span.mark == _EGO):
             if span.mark not in binding:
                 slots |= {slot: text for slot, text in span.slots.items() if slot not in slots}
                 binding.add(span.mark)
@@ -186,10 +187,23 @@ class SlotWords:
             places = lattice.edges[end] if end < len(tokens) else ()
             place = next((edge for edge in places if _is_place(edge)), None)
             if place is None:
-                yield _Span(start, end, "thing", slots | {"thing": names["this"]})
+                mark = _EGO if self._is_the_ego(tokens, start, end) else "thing"
+                yield _Span(start, end, mark, slots | {"thing": names["this"]})
             else:
                 where = _text(tokens, place.start, place.end)
                 yield _Span(start, place.end, "thing", slots | {"thing": f"{names['one']} {where}"})
+
+    def _is_the_ego(self, tokens: Sequence[Token], start: int, end: int) -> bool:
+        """Whether a thing is called as the vehicle itself is: "the car", but not "the car that turned"."""
+        called = self._data.get("ego")
+        if called is None or end - start != 2:
+            return False
+        then = tokens[end].text if end < len(tokens) else ""
+        return (
+            tokens[start].text in called["determiners"]
+            and tokens[start + 1].text in called["nouns"]
+            and then not in called["another_before"]
+        )
 
     def _is_a_move(self, edge: Edge, tokens: Sequence[Token], lattice: Lattice) -> bool:
         before = tokens[edge.start - 1].text if edge.start else ""
@@ -241,7 +255,8 @@ _SECOND = {"move": ("instead", "going"), "tick": ("until", "tick"), "planner": (
 """The slot of a second one, and which of its words."""
 _THIRD = "third"
 """Binding where three planners are named: no sentence has room for them."""
-_LOOSE = frozenset(("things",))
+_EGO = "ego"
+_LOOSE = frozenset(("things", _EGO))
 """Marks of what a question may name in passing."""
 
 

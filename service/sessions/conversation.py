@@ -28,6 +28,7 @@ from service.sessions.facts import (
     performed_actions,
     spread_facts,
 )
+from service.sessions.present import Present
 from service.sessions.referred import changes_number, explained, named, options_told, tick_told
 from service.sessions.utterance import Outcome, Utterance
 from sim.actions import (
@@ -333,6 +334,7 @@ class Conversation:
             names=frozenset(name.casefold() for name in names),
             columns=world.road.columns,
             step_seconds=state.config.step_seconds,
+            now=Present(state),
         )
 
     def _ids_on(self, world: World) -> frozenset[str]:

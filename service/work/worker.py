@@ -21,7 +21,7 @@ from service.work.progress import Heard
 from service.work.worker_main import READY
 
 END_S: Final = 2.0
-"""How long a killed process is waited for; it takes tens of milliseconds."""
+"""How long a killed process is waited for at the end of this program; it takes tens of milliseconds."""
 
 _PROGRAM: Final = (
     "import sys; sys.path[:] = sys.argv[2:]; "
@@ -121,12 +121,13 @@ def _end(process: Popen[bytes]) -> None:
     try:
         threading.Thread(target=_reap, args=(process,), name="reaper", daemon=True).start()
     except RuntimeError:  # this program ends
-        _reap(process)
+        _reap(process, END_S)
 
 
-def _reap(process: Popen[bytes]) -> None:
+def _reap(process: Popen[bytes], limit_s: float | None = None) -> None:
+    """Wait for the end of a killed process, as long as that takes: on a busy machine it may be seconds."""
     with suppress(subprocess.TimeoutExpired):
-        process.wait(END_S)
+        process.wait(limit_s)
     for pipe in (process.stdin, process.stdout):
         if pipe is not None:
             with suppress(OSError, ValueError, RuntimeError):  # broken, or read by a thread at this moment

@@ -58,6 +58,8 @@ class Query:
     event: Event
     move: Move | None = None
     """of moves and lane changes: the move; "left" is a diagonal to the left too"""
+    straight: bool = True
+    """whether moves straight on count among moves"""
     outcome: Outcome | None = None
     """of ends: how"""
     cause: Kind | None = None
@@ -221,6 +223,8 @@ def _is_meant(timeline: Timeline, before: SimState, after: SimState, move: Move,
         waits = decision is not None and decision.move is Move.STAY
         return waits is (query.event is Event.STOP)
     if query.move is not None and move not in SAID_OF.get(query.move, (query.move,)):
+        return False
+    if move is Move.FORWARD and not query.straight:
         return False
     return query.event is Event.MOVE or _lane(before) != _lane(after)
 

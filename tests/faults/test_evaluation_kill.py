@@ -13,7 +13,7 @@ from sim.evaluate import Evaluation
 from sim.evaluate.run import evaluate
 from tests.faults.process import Watched
 
-RUNS, SEED = 100, 40
+RUNS, SEED = 60, 40
 
 
 @pytest.mark.parametrize("kills", [2])

@@ -160,7 +160,7 @@ def test_politeness_and_marks_change_nothing(german: Language, polite: str) -> N
     for say in list(sayings())[::9]:
         if say.startswith(("Speichere", "speichere", "lade")) or say.endswith(("?", "!", ".")):
             continue
-        if say.startswith(("Moment", "Mach daraus")):  # after a comma it takes back what was said
+        if say.startswith(("Moment", "Mach daraus", "warte")):  # after a comma it takes back what was said
             continue
         if "chat" in str(meaning(german, say)):  # "hallo, bitte" says less than a greeting
             continue

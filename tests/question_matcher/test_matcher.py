@@ -225,3 +225,23 @@ def test_a_move_before_straight_on_is_one_of_two(language: Language) -> None:
     assert {"move", "instead"} <= two.binding
     one = words.question("what would have happened if I had gone left at tick 10?")
     assert "instead" not in one.binding
+
+
+@pytest.mark.parametrize(
+    "text", ["where did the car halt last", "is our car stuck for good", "why did my vehicle stop there"]
+)
+def test_the_car_is_the_vehicle_itself(text: str, language: Language) -> None:
+    assert "thing" not in SlotWords(language, FOLDER).question(text).binding
+
+
+@pytest.mark.parametrize(
+    "text", ["why did the car we hit stop", "why did the car ahead stop", "why did that car stop"]
+)
+def test_a_car_of_which_more_is_said_is_another(text: str, language: Language) -> None:
+    assert "thing" in SlotWords(language, FOLDER).question(text).binding
+
+
+def test_the_vehicle_lends_no_words_to_what_else_is_named(language: Language) -> None:
+    question = SlotWords(language, FOLDER).question("did the car see the pedestrian at all?")
+    assert question.slots["thing"] == "that pedestrian"
+    assert question.slots["things"] == "pedestrians"

@@ -52,7 +52,7 @@ def _occurrence_json(each: Occurrence, what: str) -> Json:
         told["ticks"] = each.ticks
     if what == "ended":
         told["outcome"] = each.before.world.outcome
-    if what in ("made", "shares"):
+    if what in ("made", "shares", "listed", "in_the_way"):
         told["move"] = each.move
     if what != "lane_changes" or each.ids is not None:
         told["ids"] = None if each.ids is None else list(each.ids)
@@ -64,6 +64,8 @@ _NAMES = {
     "lane_changes": "lane_changes",
     "made": "moves",
     "shares": "moves",
+    "listed": "moves",
+    "in_the_way": "moves",
     "moving": "stretches",
     "ended": "ends",
 }

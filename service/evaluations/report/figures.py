@@ -58,13 +58,19 @@ class Behind:
 
 
 def figures_table(spec: Evaluation, summary: Json, words: EvaluationWords, behind: Behind) -> Table:
-    """One line for each figure and a column for each planner: there are more figures than planners."""
+    """One line for each figure and a column for each planner: there are more figures than planners.
+
+    Runs that are all the same are no sample, so that there are no intervals.
+    """
     names = [Cell(name) for name in _names(words)]
     columns = [names]
     columns += [
         list(_column(planner, summary["planners"][planner], words, behind)) for planner in spec.planners
     ]
-    return Table(words.label("figures"), list(zip(*columns, strict=True)))
+    rows, interval = list(zip(*columns, strict=True)), words.label("interval")
+    return Table(
+        words.label("figures"), [row for row in rows if not (spec.alike and row[0].text == interval)]
+    )
 
 
 def _names(words: EvaluationWords) -> list[str]:
@@ -146,6 +152,8 @@ def pairs_table(spec: Evaluation, summary: Json, words: EvaluationWords, behind:
         under = f" ({words.condition(each['said'])})" if spec.cases else ""
         case = number if spec.cases else None
         rows += [_pair(pair, under, words, behind, case) for pair in each["comparisons"]]
+    if spec.alike:
+        rows = [row[:-2] for row in rows]
     return [Table(words.label("pairs"), rows)]
 
 

@@ -33,7 +33,9 @@ class Plot:
 def draw_plots(
     spec: Evaluation, summary: Mapping[str, Any], words: EvaluationWords, behind: Behind
 ) -> list[Plot] | None:
-    """The plots; None where matplotlib is not installed."""
+    """The plots; None where matplotlib is not installed. Of runs that are all the same there are none."""
+    if spec.alike:
+        return []
     try:
         import matplotlib
     except ImportError:
