@@ -30,7 +30,8 @@ class SearchEfforts:
         name = canonical(ask.planner or planner_of(state))
         planner = self._sayings.planner(name)
         if name != SEARCHES:
-            text, facts = self._say("none", planner=planner), {"expanded": None}
+            text = self._say("none", planner=planner)
+            facts: dict[str, object] = {"expanded": None}
         else:
             at = _last_decided(asked.timeline)
             found = search_effort(at)
