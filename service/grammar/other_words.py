@@ -19,7 +19,7 @@ from service.actions import Action, dump, load
 from service.grammar.clause_patterns import Choice as Ways
 from service.grammar.clause_patterns import Patterns, Sentence, Slots
 from service.grammar.lattice import GLUE
-from service.grammar.parse_types import Ambiguous, Choice, Parse, Refused, Understood
+from service.grammar.parse_types import Ambiguous, Choice, Parse, Reason, Refused, Understood
 from service.grammar.paths import SEPARATOR
 from service.grammar.said_before import take_back_change
 from service.grammar.tokens import Token, normalise, tokenise
@@ -144,7 +144,7 @@ class _Reading:
         why = self._why or self._reason()
         if why is None:
             return self._refused
-        reason = "negation" if self._refused.reason == "negation" else "impossible"
+        reason: Reason = "negation" if self._refused.reason == "negation" else "impossible"
         message = f"{why} {self._words.messages['unchanged']}"
         return Refused(self._text, reason, message, (), (), self._refused.suggestions)
 
@@ -240,10 +240,12 @@ class _Reading:
         """So many times as many things of a kind as there are now."""
         kind = slots[_KINDS]
         if self._topic.now is None:
-            return self._because("not_now", slots)
+            self._because("not_now", slots)
+            return None
         now = self._topic.now.count(kind)
         if now == 0:
-            return self._because("none_to_scale", slots)
+            self._because("none_to_scale", slots)
+            return None
         if isinstance(factor, str):
             said = float(slots["x"])
             factor = {"times": said, "more": 1 + said / 100, "less": 1 - said / 100}[factor]
@@ -251,7 +253,8 @@ class _Reading:
         try:
             return load([{"do": "set_count", "kind": kind, "count": count}])
         except ValidationError:
-            return self._because("too_many", slots)
+            self._because("too_many", slots)
+            return None
 
     def _lasting(self, slots: Slots) -> tuple[Action, ...] | None:
         """A setting that is changed now and set back by a rule, once so many ticks or seconds are over."""
@@ -262,17 +265,20 @@ class _Reading:
         if asked is None:
             return None
         if any(isinstance(each, Add | Remove | SetCount) for each in asked):
-            return self._because("not_for_a_time", slots)
+            self._because("not_for_a_time", slots)
+            return None
         if not all(isinstance(each, Set | Adjust) and each.parameter not in _NEW_ROAD for each in asked):
             return None
         if self._topic.now is None:
-            return self._because("not_set_back", slots)
+            self._because("not_set_back", slots)
+            return None
         old = []
         for each in asked:
             assert isinstance(each, Set | Adjust)
             value = self._topic.now.value(each.parameter)
             if value is None or (isinstance(each, Set) and each.value == value):
-                return self._because("not_set_back" if value is None else "so_already", slots)
+                self._because("not_set_back" if value is None else "so_already", slots)
+                return None
             old.append({"do": "set", "parameter": each.parameter, "value": value})
         after = {name: slots[key] for name, key in (("ticks", "n"), ("seconds", "seconds")) if key in slots}
         try:
@@ -287,7 +293,8 @@ class _Reading:
         fits = all(isinstance(each, Remove) and each.kind == kind for each in changed)
         if changed and fits and self._topic.changed_steps and not self._topic.undone:
             return (take_back_change(self._topic),)
-        return self._because("not_removed_last", slots)
+        self._because("not_removed_last", slots)
+        return None
 
     def _because(self, key: str, slots: Slots) -> None:
         """Nothing, for a reason that is told."""
