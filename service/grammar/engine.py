@@ -245,11 +245,7 @@ class Language:
     @cached_property
     def joiners(self) -> frozenset[str]:
         """The words that stand between one request and the next."""
-        joining = (
-            w
-            for w, senses in self._lexicon.phrases_of(SEPARATOR)
-            if any(s.concept == SEPARATOR for s in senses)
-        )
+        joining = (words for words, _ in self._lexicon.phrases_of(SEPARATOR))
         return frozenset(words[0] for words in joining if len(words) == 1 and words[0].isalpha())
 
     def ways_to_say(self, concept: str) -> list[str]:
