@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pydantic import ValidationError
 
@@ -55,6 +55,16 @@ class _Entry:
     asks: bool
     """whether the sentence in its place may be asked about"""
     choices: tuple[str, ...] = ()
+
+
+class _Found(NamedTuple):
+    """A pattern that fits from a token on."""
+
+    order: tuple[int, int]
+    """the numbers of entry and pattern: the first ones count"""
+    entry: _Entry
+    stop: int
+    slots: Slots
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +135,7 @@ class _Reading:
         )
         self._lattice = language.scan(tokens)
         self._known: dict[tuple[int, int], tuple[Action, ...] | None] = {}
+        self._found: dict[int, list[_Found]] = {}
         self._why: str | None = None
 
     @property
@@ -222,14 +233,21 @@ class _Reading:
         """The entries that fit the whole of a stretch, words that say nothing at its ends aside."""
         opening, closing = self._opening(start, end), self._closing(start, end)
         self._work.spend(MATCH_STEPS)
-        for entry in self._words.entries:
-            if entry.outcome not in outcomes:
-                continue
-            for pattern in entry.patterns:
-                for at in opening:
-                    for stop, slots in self._words.patterns.matches(pattern, self._said, at):
-                        if stop in closing:
-                            yield entry, slots
+        found = [each for at in opening for each in self._from(at) if each.stop in closing]
+        for each in sorted(found, key=lambda each: each.order):
+            if each.entry.outcome in outcomes:
+                yield each.entry, each.slots
+
+    def _from(self, at: int) -> list[_Found]:
+        """All that fits from a token on, wherever it ends."""
+        if at not in self._found:
+            self._found[at] = [
+                _Found((number, nth), entry, stop, slots)
+                for number, entry in enumerate(self._words.entries)
+                for nth, pattern in enumerate(entry.patterns)
+                for stop, slots in self._words.patterns.matches(pattern, self._said, at)
+            ]
+        return self._found[at]
 
     def _read(self, entry: _Entry, template: str, slots: Slots) -> tuple[Action, ...] | None:
         """The actions of the sentence in its place, if they are of those that it may come to."""
