@@ -34,6 +34,10 @@ MAX_PARTS = 4
 """Into how many requests a sentence is divided at most."""
 MATCH_STEPS = 40
 """What looking for the patterns in one stretch costs."""
+MOST_WORDS = 40
+"""Longer sentences are not looked at: places for any words fit them in too many ways."""
+MOST_LETTERS = 300
+"""Nor are texts so long, whose words need not be counted then."""
 _READ, _SCALE, _LASTS, _BACK, _ASK, _WHY = "read", "scale", "lasts", "back", "ask", "why"
 _OUTCOMES = frozenset((_READ, _SCALE, _LASTS, _BACK, _ASK, _WHY))
 _KINDS, _ONE = "kinds", "one"
@@ -47,7 +51,8 @@ _NEW_ROAD = frozenset(("columns", "rows", "seed", "traffic", "playback_speed"))
 class _Entry:
     """What some patterns come to."""
 
-    patterns: tuple[Ways, ...]
+    patterns: tuple[tuple[Ways, frozenset[str]], ...]
+    """each with what it may begin with, "{}" for a number or any words"""
     outcome: str
     value: Any
     does: frozenset[str] | None
@@ -91,7 +96,10 @@ class OtherWords:
             says = entry["say"]
             entries.append(
                 _Entry(
-                    tuple(patterns.read(text) for text in ([says] if isinstance(says, str) else says)),
+                    tuple(
+                        (read := patterns.read(text), patterns.openings(read))
+                        for text in ([says] if isinstance(says, str) else says)
+                    ),
                     outcome,
                     entry[outcome],
                     None if does is None else frozenset(does.split()),
@@ -103,10 +111,11 @@ class OtherWords:
 
     def read(self, language: Language, text: str, refused: Refused, topic: Topic, work: WorkBudget) -> Parse:
         """What a refused text comes to; the refusal itself where nothing here fits it."""
-        if not self.entries or refused.reason == "empty":
+        if not self.entries or refused.reason == "empty" or len(text) > MOST_LETTERS:
             return refused
         try:
-            return _Reading(self, language, text, refused, topic, work).parse()
+            reading = _Reading(self, language, text, refused, topic, work)
+            return reading.parse() if reading.size <= MOST_WORDS else refused
         except BudgetExceededError:
             return refused
 
@@ -137,6 +146,11 @@ class _Reading:
         self._known: dict[tuple[int, int], tuple[Action, ...] | None] = {}
         self._found: dict[int, list[_Found]] = {}
         self._why: str | None = None
+
+    @property
+    def size(self) -> int:
+        """How many words and marks the text has."""
+        return len(self._said.tokens)
 
     @property
     def _tokens(self) -> Sequence[Token]:
@@ -241,10 +255,12 @@ class _Reading:
     def _from(self, at: int) -> list[_Found]:
         """All that fits from a token on, wherever it ends."""
         if at not in self._found:
+            begins = {self._tokens[at].text, "{}"}
             self._found[at] = [
                 _Found((number, nth), entry, stop, slots)
                 for number, entry in enumerate(self._words.entries)
-                for nth, pattern in enumerate(entry.patterns)
+                for nth, (pattern, openings) in enumerate(entry.patterns)
+                if not openings.isdisjoint(begins)
                 for stop, slots in self._words.patterns.matches(pattern, self._said, at)
             ]
         return self._found[at]
