@@ -171,7 +171,8 @@ class _Reading:
             return self._refused
         reason: Reason = "negation" if self._refused.reason == "negation" else "impossible"
         message = f"{why} {self._words.messages['unchanged']}"
-        return Refused(self._text, reason, message, (), (), self._refused.suggestions)
+        told = self._refused
+        return Refused(self._text, reason, message, told.unparsed, told.understood, told.suggestions)
 
     def _divided(self) -> tuple[Action, ...] | None:
         """The actions of a text of several requests, of which one at least is in other words."""

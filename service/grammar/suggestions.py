@@ -25,7 +25,7 @@ from service.grammar.paths import ALLOWS, NEGATION, SEPARATOR, SPEAKER
 from service.grammar.unparsed_span import Gap
 
 HOW_MANY = 3
-LEAST = 0.24
+LEAST = 0.22
 """How sure a meaning must make an intent: the share of sayings with this meaning that are of the intent."""
 _SAME_VALUE = 0.3
 """What it counts that the saying names the very value: the potholes, and not some other thing."""
