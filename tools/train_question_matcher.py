@@ -16,7 +16,6 @@ common. Prints how often the kind of an example is found by weights that were le
 from __future__ import annotations
 
 import argparse
-import hashlib
 import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -36,9 +35,13 @@ from service.question_matcher.kinds import NONE_OF_THEM, read_kinds
 from service.question_matcher.slots import SlotWords
 from service.question_matcher.weights import FILE, Weights
 from service.resources import prompts_folder
-from service.yaml_files import read_yaml
+from tools.question_examples import Example, asked_of, examples_of, sources_of
 
 PENALTY = 0.1
+WEIGHT_OF_ASKED = 3
+"""How often a question of `asked.yaml` counts: people ask that, where an example is made up for its kind."""
+MAIN_KIND = 0.7
+"""Share of the first kind of a question that others answer as well."""
 LEAST = 2
 """How many examples a feature must occur in."""
 PARTS = 5
@@ -56,12 +59,6 @@ GLOVE = 100
 
 Words = tuple[str, ...]
 Vectors = Mapping[str, NDArray[np.float64]]
-
-
-def sources_of(folder: Path) -> str:
-    """The digest of the files that weights are learnt from."""
-    names = ("examples.yaml", "kinds.yaml", "words.yaml")
-    return hashlib.sha256(b"\n".join((folder / name).read_bytes() for name in names)).hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,11 +176,22 @@ def _unit(vector: ArrayLike) -> NDArray[np.float64]:
     return unit
 
 
-def learn(examples: Rows, kinds: NDArray[np.int64], count: int) -> NDArray[np.float64]:
+def wanted_of(said: Sequence[Example], names: Sequence[str], asked: int) -> NDArray[np.float32]:
+    """What the scores of each question should tell [question, kind]; the last `asked` are of people."""
+    wanted = np.zeros((len(said), len(names)), np.float32)
+    at = {name: column for column, name in enumerate(names)}
+    for row, (_, (first, *others)) in enumerate(said):
+        wanted[row, at[first]] = MAIN_KIND if others else 1
+        for other in others:
+            wanted[row, at[other]] = (1 - MAIN_KIND) / len(others)
+    wanted[len(said) - asked :] *= WEIGHT_OF_ASKED
+    return wanted
+
+
+def learn(examples: Rows, wanted: NDArray[np.float32]) -> NDArray[np.float64]:
     """The weights [feature, kind]."""
-    wanted = np.zeros((examples.shape[0], count), np.float32)
-    wanted[np.arange(len(kinds)), kinds] = 1
-    shape = (examples.shape[1], count)
+    shape = (examples.shape[1], wanted.shape[1])
+    counts = wanted.sum(axis=1, keepdims=True)
 
     def loss(flat: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         weights = flat.reshape(shape).astype(np.float32)
@@ -191,8 +199,8 @@ def learn(examples: Rows, kinds: NDArray[np.int64], count: int) -> NDArray[np.fl
         scores -= scores.max(axis=1, keepdims=True)
         chances = np.exp(scores)
         chances /= chances.sum(axis=1, keepdims=True)
-        value = -np.log(chances[np.arange(len(kinds)), kinds] + 1e-12).sum(dtype=float)
-        slope = examples.transposed_times(chances - wanted) + PENALTY * weights
+        value = -(wanted * np.log(chances + 1e-12)).sum(dtype=float)
+        slope = examples.transposed_times(chances * counts - wanted) + PENALTY * weights
         return float(value + PENALTY / 2 * (weights * weights).sum()), slope.ravel().astype(float)
 
     found = minimize(loss, np.zeros(shape).ravel(), jac=True, method="L-BFGS-B", options={"maxiter": 70})
@@ -201,9 +209,10 @@ def learn(examples: Rows, kinds: NDArray[np.int64], count: int) -> NDArray[np.fl
 
 
 def cross_validated(
-    examples: Sequence[Words], kinds: NDArray[np.int64], names: Sequence[str], vectors: Vectors, parts: int
+    examples: Sequence[Words], wanted: NDArray[np.float32], names: Sequence[str], vectors: Vectors, parts: int
 ) -> float:
     """The least margin with which a kind is right as often as `RIGHT`; prints how often it is found."""
+    kinds = wanted.argmax(axis=1)
     part = np.random.default_rng(1).integers(PARTS, size=len(examples))
     tried = part < parts
     right = np.zeros(len(examples), bool)
@@ -212,7 +221,7 @@ def cross_validated(
     for each in range(parts):
         inside, outside = np.flatnonzero(part != each).tolist(), np.flatnonzero(part == each).tolist()
         inputs = Inputs.of([examples[at] for at in inside], vectors)
-        weights = learn(inputs.matrix([examples[at] for at in inside]), kinds[inside], len(names))
+        weights = learn(inputs.matrix([examples[at] for at in inside]), wanted[inside])
         scores = inputs.matrix([examples[at] for at in outside]).times(weights)
         order = np.sort(scores, axis=1)
         found = scores.argmax(axis=1)
@@ -241,18 +250,18 @@ def main() -> None:
     options = parser.parse_args()
     folder = prompts_folder() / "questions" / options.language
     words = SlotWords(Language.load(options.language), folder)
-    data = read_yaml(folder / "examples.yaml")
-    said = [(kind, words.question(text).words) for kind, texts in data.items() for text in texts]
+    made_up, asked = examples_of(folder), asked_of(folder)
+    said = made_up + asked
     names = tuple(read_kinds(folder))
-    examples = [each for _, each in said]
-    kinds = np.array([names.index(kind) for kind, _ in said])
+    examples = [words.question(text).words for text, _ in said]
+    wanted = wanted_of(said, names, len(asked))
     seen = frozenset(word for each in examples for word in each)
     vectors = read_vectors(options.vectors, options.wordllama, seen)
-    sure = cross_validated(examples, kinds, names, vectors, options.parts)
+    sure = cross_validated(examples, wanted, names, vectors, options.parts)
     if options.check:
         return
     inputs = Inputs.of(examples, vectors)
-    rows, table = inputs.rows_of(learn(inputs.matrix(examples), kinds, len(names)))
+    rows, table = inputs.rows_of(learn(inputs.matrix(examples), wanted))
     step = float(np.abs(table).max()) / STEPS
     Weights(
         kinds=names,
@@ -260,7 +269,12 @@ def main() -> None:
         table=np.rint(table / step).astype(np.int8),
         step=step,
         sure=sure,
-        words=frozenset(word for kind, each in said if kind != NONE_OF_THEM for word in each),
+        words=frozenset(
+            word
+            for (_, of), each in zip(said, examples, strict=True)
+            if of[0] != NONE_OF_THEM
+            for word in each
+        ),
         sources=sources_of(folder),
     ).write(folder / FILE)
 

@@ -1,9 +1,9 @@
 """Matches a question that the grammar refused to a sentence that it understands.
 
-The kind of the question is found by a classifier; its slots are found by the lexicon. A match is a
-sentence of the grammar, which parses it: nothing but a question about the session can come of it, and
-the answer says as what it was read. A match is unsure where two kinds are near each other, or where a
-word occurs in no example.
+The kind of the question is found by two classifiers, of its words and of their order (`KindScores`); its
+slots are found by the lexicon. A match is a sentence of the grammar, which parses it: nothing but a question
+about the session can come of it, and the answer says as what it was read. A match is unsure where two kinds are
+near each other, or where a word occurs in no example.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from service.grammar.topic import ALONE
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from service.question_matcher.fillers import Fillers
 from service.question_matcher.follow_ups import FollowUps
+from service.question_matcher.kind_scores import KindScores
 from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, Situation, read_kinds
 from service.question_matcher.slots import Question, SlotWords
-from service.question_matcher.weights import FILE, Weights
 from sim.actions import Pause, Reset
 
 NEAR = 1.5
@@ -77,8 +77,8 @@ class QuestionMatcher:
         return read_kinds(self._folder)
 
     @cached_property
-    def _weights(self) -> Weights:
-        return Weights.read(self._folder / FILE)
+    def _scores(self) -> KindScores:
+        return KindScores.read(self._folder)
 
     @cached_property
     def _follow_ups(self) -> FollowUps:
@@ -112,12 +112,9 @@ class QuestionMatcher:
         if len(unknown) > MOST_UNKNOWN:
             return None
         unusual = {name for name, kind in self._kinds.items() if kind.when and kind.when not in situations}
-        scores = self._weights.scores(question.words)
+        scores = self._scores.of(text, question.words)
         order = sorted(
-            (
-                (score - UNUSUAL * (kind in unusual), kind)
-                for score, kind in zip(scores.tolist(), self._weights.kinds, strict=True)
-            ),
+            ((score - UNUSUAL * (kind in unusual), kind) for kind, score in scores.items()),
             key=lambda each: (-each[0], each[1]),
         )
         match = self._decided(question, order, UNKNOWN_COST * len(unknown))
@@ -131,8 +128,8 @@ class QuestionMatcher:
         question = self._words.question(text)
         if not 0 < len(question.words) <= MAX_WORDS or not self._words.asks(text, question):
             return False
-        scores = self._weights.scores(question.words)
-        likeliest = self._weights.kinds[int(scores.argmax())] == NONE_OF_THEM
+        scores = self._scores.of(text, question.words)
+        likeliest = max(scores, key=scores.__getitem__) == NONE_OF_THEM
         return likeliest and not self._holds_a_request(text)
 
     def _decided(self, question: Question, order: Sequence[tuple[float, str]], cost: float) -> Match | None:
@@ -150,7 +147,7 @@ class QuestionMatcher:
                 return None
             rivals = [(score, said[name] or self._kinds[name].offered(question)) for score, name in order]
             best = rivals[0]
-        elif best[0] == likeliest and best[0] - rivals[1][0] - cost >= max(LEAST_SURE, self._weights.sure):
+        elif best[0] == likeliest and best[0] - rivals[1][0] - cost >= max(LEAST_SURE, self._scores.sure):
             return Match((best[1],), sure=True)
         near = [sentence for score, sentence in rivals if sentence and score >= max(floor, best[0] - NEAR)]
         return Match(tuple(dict.fromkeys(near))[:MAX_CHOICES], sure=False) if near else None
@@ -179,7 +176,7 @@ class QuestionMatcher:
 
     def _unknown(self, words: Sequence[str]) -> list[str]:
         """The words that occur in no example that has an answer, a slip of the pen aside."""
-        known = self._weights.words
+        known = self._scores.words
         return [
             word
             for word in words

