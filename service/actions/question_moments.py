@@ -60,6 +60,7 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     ("world", "traffic_rules"): "drive",
     ("planners", "parting"): "drive",
     ("planners", "effort"): "state",
+    ("planners", "hand_beside"): "state",
     ("sight", "errors"): "drive",
 }
 """By kind and `what`, where that is another one."""

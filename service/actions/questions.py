@@ -98,13 +98,15 @@ PlannersName = Literal[
     "difference",
     "effort",
     "parting",
+    "hand_beside",
     PlannerFactName,
 ]
 """What about planners is asked.
 
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
 often it arrives, crashes and gets stuck; `difference`: how some differ in general; `effort`: how much a
-search looks at; `parting`: where two first decide otherwise on this road.
+search looks at; `parting`: where two first decide otherwise on this road; `hand_beside`: where it would be now,
+had it driven in place of a person.
 """
 HistoryName = Literal[
     "closest_call",
@@ -485,7 +487,9 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "method": (frozenset(), frozenset(("planner",))),
     "often": (frozenset(),),
     "difference": (frozenset(("planners",)),),
-    **dict.fromkeys((*get_args(PlannerFactName), "effort"), (frozenset(), frozenset(("planner",)))),
+    **dict.fromkeys(
+        (*get_args(PlannerFactName), "effort", "hand_beside"), (frozenset(), frozenset(("planner",)))
+    ),
     "parting": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
     "cell": (frozenset(), frozenset(("move",))),

@@ -29,6 +29,7 @@ from service.narration.drive_counts import DriveCounts
 from service.narration.drive_end import DriveEnds
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
+from service.narration.hand_beside import HandsBeside
 from service.narration.history import History
 from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
@@ -131,6 +132,7 @@ class Answers:
             SearchEfforts(sayings): ("effort",),
             SessionFacts(sayings): FACTS_OF_THE_SESSION,
             PlannerPartings(sayings): ("parting",),
+            HandsBeside(sayings): ("hand_beside",),
             OtherSeeds(sayings): ("other_seeds",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
