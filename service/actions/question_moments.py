@@ -40,14 +40,22 @@ _OF: Final[Mapping[str, Moment]] = {
 _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     **{
         ("history", what): "decision"
-        for what in ("seen", "similar", "choices", "runner_up", "scores", "needed")
+        for what in ("seen", "similar", "choices", "runner_up", "scores", "needed", "move_risk")
     },
     **{(about, what): "state" for about in ("why", "why_not", "what_if") for what in WHATS[about]},
     **{
         ("history", what): "state"
         for what in (
             *("waited", "passed", "stopped", "lanes_used", "sighted", "noticed", "shares", "moving"),
-            *("listed", "in_the_way", "advanced"),
+            *(
+                "listed",
+                "in_the_way",
+                "advanced",
+                "near_misses",
+                "average_speed",
+                "way_share",
+                "straight_line",
+            ),
         )
     },
     **{("planners", what): "decision" for what in _OF_A_DECISION},

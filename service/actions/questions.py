@@ -105,8 +105,8 @@ PlannersName = Literal[
 
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
 often it arrives, crashes and gets stuck; `difference`: how some differ in general; `effort`: how much a
-search looks at; `parting`: where two first decide otherwise on this road; `hand_beside`: where it would be now,
-had it driven in place of a person.
+search looks at; `parting`: where two first decide otherwise on this road; `hand_beside`: where it would be
+now, had it driven in place of a person.
 """
 HistoryName = Literal[
     "closest_call",
@@ -144,6 +144,12 @@ HistoryName = Literal[
     "in_the_way",
     "advanced",
     "end",
+    "near_misses",
+    "move_risk",
+    "average_speed",
+    "way_share",
+    "best_time",
+    "straight_line",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -161,7 +167,10 @@ is detected, or the things of a kind, or all; `overlooked`: what was driven past
 the one before; `shares`: how many moves of each kind were made;
 `moving`: the stretches without a stop; `listed`: the moves in their order; `in_the_way`: the moves other than
 straight on that were for something; `advanced`: how many rows it came ahead; `end`: how, when and where the
-drive ended.
+drive ended; `near_misses`: what came that close that it nearly met; `move_risk`: how near a move came to what
+moves, the latest by default; `average_speed`: of this drive; `way_share`: what part of the way to the goal
+is driven; `best_time`: the least time in which this road can be driven; `straight_line`: how much longer than
+straight ahead it drove.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -517,6 +526,7 @@ COUNTED: Final[Mapping[str, frozenset[str]]] = {
     "listed": frozenset(("part", "lane", "parameter", "value")),
     "in_the_way": frozenset(("kind", "want", "part", "lane", "parameter", "value")),
     "advanced": frozenset(("part",)),
+    "near_misses": frozenset(("kind",)),
 }
 """What is counted over a drive, and the conditions that each takes beside ticks."""
 
@@ -542,6 +552,9 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "noticed": (frozenset(), frozenset(("tick",))),
     **dict.fromkeys(("shares", "moving", "listed", "in_the_way", "advanced"), _STRETCHES),
     "end": (frozenset(),),
+    "near_misses": _STRETCHES,
+    "move_risk": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
+    **dict.fromkeys(("average_speed", "way_share", "best_time", "straight_line"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

@@ -21,12 +21,14 @@ from service.narration.asked_moment import at_its_moment
 from service.narration.believed import NearestBelieved
 from service.narration.blame import Blames
 from service.narration.choices import Choices
+from service.narration.close_calls import CloseCalls
 from service.narration.coming_turn import ComingTurns
 from service.narration.confidence import Confidences
 from service.narration.course import Courses
 from service.narration.details import Details
 from service.narration.drive_counts import DriveCounts
 from service.narration.drive_end import DriveEnds
+from service.narration.drive_figures import DriveFigures
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
 from service.narration.hand_beside import HandsBeside
@@ -78,6 +80,9 @@ from sim.explain.sooner import longer_wait, sooner_change, sooner_stop, unstoppe
 from sim.explain.what_if import moment_of
 from sim.types import Kind, Move
 
+_OF_ONE_MOVE: Final = ("choices", "runner_up", "scores", "needed", "move_risk")
+"""What of the past is asked of a single move."""
+
 RULES_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldRuleName)
 FACTS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldFactName)
 FACTS_OF_THE_SESSION: Final[tuple[str, ...]] = get_args(SessionFactName)
@@ -113,6 +118,8 @@ class Answers:
                 "advanced",
             ),
             DriveEnds(sayings): ("end",),
+            CloseCalls(sayings): ("near_misses", "move_risk"),
+            DriveFigures(sayings): ("average_speed", "way_share", "best_time", "straight_line"),
             AllOthers(sayings): OF_OTHERS,
             HitMoversTold(sayings): ("the_other", "other_could"),
             PastSightings(sayings): ("sighted", "overlooked", "lost_sight", "noticed"),
@@ -275,7 +282,7 @@ _OF_AN_EARLIER_MOVE: Final[Mapping[str | None, Callable[[Asked], Asked]]] = {
 
 def _meets_one_tick(ask: Ask) -> bool:
     """Whether so many ticks back is the tick of one decision, rather than where a stretch begins."""
-    return ask.about not in ("history", "outlook") or ask.what in ("choices", "runner_up", "scores", "needed")
+    return ask.about not in ("history", "outlook") or ask.what in _OF_ONE_MOVE
 
 
 def _at_its_tick(asked: Asked) -> Asked:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -21,7 +22,7 @@ YES_NO = {"en": ("Yes", "No"), "de": ("Ja", "Nein")}
 
 def answer(timeline: Timeline, code: str, supposes: str | None = None, **ask: Any) -> dict[str, Any]:
     told = NARRATORS[code].answer(Asked(Ask(**ask), timeline, supposes))
-    assert looks_like_sentences(told["text"]), told["text"]
+    assert looks_like_sentences(re.sub(r"^\d+", "One", told["text"])), told["text"]
     assert len(told["text"].split()) <= MOST_WORDS, told["text"]
     assert ids_in(told["text"]) == set(), told["text"]
     return told
