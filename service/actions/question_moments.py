@@ -13,6 +13,7 @@ from typing import Final, Literal, get_args
 from service.actions.action import Ask
 from service.actions.questions import (
     WHATS,
+    HandFactName,
     PlannersName,
     SessionFactName,
     WorldFactName,
@@ -26,7 +27,12 @@ Moment = Literal["decision", "state", "drive", "present", "none"]
 _OF_A_DECISION: Final = ("here", "compare", "own")
 """What of planners is asked of one decision; nearly all else is asked of planners in general."""
 
-_OF_THE_WORLD: Final = (*get_args(WorldRuleName), *get_args(WorldFactName), *get_args(SessionFactName))
+_OF_THE_WORLD: Final = (
+    *get_args(WorldRuleName),
+    *get_args(WorldFactName),
+    *get_args(SessionFactName),
+    *get_args(HandFactName),
+)
 """What holds whatever is looked at; `traffic_rules` tells of the drive as well."""
 
 _OF: Final[Mapping[str, Moment]] = {

@@ -150,6 +150,7 @@ HistoryName = Literal[
     "way_share",
     "best_time",
     "straight_line",
+    "luck",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -170,7 +171,7 @@ straight on that were for something; `advanced`: how many rows it came ahead; `e
 drive ended; `near_misses`: what came that close that it nearly met; `move_risk`: how near a move came to what
 moves, the latest by default; `average_speed`: of this drive; `way_share`: what part of the way to the goal
 is driven; `best_time`: the least time in which this road can be driven; `straight_line`: how much longer than
-straight ahead it drove.
+straight ahead it drove; `luck`: how the same drive goes with other chances.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -276,6 +277,12 @@ a pothole may be driven over; `export`: how a drive is saved; `switching`: what 
 `traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim about a rate takes; `keys`:
 which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them.
 """
+HandFactName = Literal["hand_time", "hand_warning", "hand_plan", "hand_blame"]
+"""What is asked of driving by hand.
+
+`hand_time`: whether time runs on without a key; `hand_warning`: whether a crash is warned of; `hand_plan`:
+what the planner does meanwhile, and whose plan is drawn; `hand_blame`: whose a crash is.
+"""
 WorldName = Literal[
     "pace",
     "gap",
@@ -287,6 +294,7 @@ WorldName = Literal[
     WorldRuleName,
     WorldFactName,
     SessionFactName,
+    HandFactName,
 ]
 """What about this world and its rules is asked.
 
@@ -554,7 +562,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "end": (frozenset(),),
     "near_misses": _STRETCHES,
     "move_risk": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
-    **dict.fromkeys(("average_speed", "way_share", "best_time", "straight_line"), (frozenset(),)),
+    **dict.fromkeys(("average_speed", "way_share", "best_time", "straight_line", "luck"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

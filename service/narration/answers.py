@@ -9,6 +9,7 @@ from typing import Final, get_args
 from service.actions import Ask, dump
 from service.actions.questions import (
     OF_OTHERS,
+    HandFactName,
     PlannerFactName,
     SessionFactName,
     WorldFactName,
@@ -32,9 +33,11 @@ from service.narration.drive_figures import DriveFigures
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
 from service.narration.hand_beside import HandsBeside
+from service.narration.hand_facts import HandFacts
 from service.narration.history import History
 from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
+from service.narration.luck import Lucks
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
@@ -86,6 +89,7 @@ _OF_ONE_MOVE: Final = ("choices", "runner_up", "scores", "needed", "move_risk")
 RULES_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldRuleName)
 FACTS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldFactName)
 FACTS_OF_THE_SESSION: Final[tuple[str, ...]] = get_args(SessionFactName)
+FACTS_OF_DRIVING_BY_HAND: Final[tuple[str, ...]] = get_args(HandFactName)
 FACTS_OF_PLANNERS: Final[tuple[str, ...]] = get_args(PlannerFactName)
 
 
@@ -140,6 +144,8 @@ class Answers:
             SessionFacts(sayings): FACTS_OF_THE_SESSION,
             PlannerPartings(sayings): ("parting",),
             HandsBeside(sayings): ("hand_beside",),
+            HandFacts(sayings): FACTS_OF_DRIVING_BY_HAND,
+            Lucks(sayings): ("luck",),
             OtherSeeds(sayings): ("other_seeds",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
