@@ -61,6 +61,8 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
                 "average_speed",
                 "way_share",
                 "straight_line",
+                "started",
+                "hand_since",
             ),
         )
     },

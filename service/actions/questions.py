@@ -151,6 +151,8 @@ HistoryName = Literal[
     "best_time",
     "straight_line",
     "luck",
+    "started",
+    "hand_since",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -171,7 +173,8 @@ straight on that were for something; `advanced`: how many rows it came ahead; `e
 drive ended; `near_misses`: what came that close that it nearly met; `move_risk`: how near a move came to what
 moves, the latest by default; `average_speed`: of this drive; `way_share`: what part of the way to the goal
 is driven; `best_time`: the least time in which this road can be driven; `straight_line`: how much longer than
-straight ahead it drove; `luck`: how the same drive goes with other chances.
+straight ahead it drove; `luck`: how the same drive goes with other chances; `started`: where it
+began; `hand_since`: since when a person drives, and which of its moves were held back.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -247,6 +250,8 @@ WorldFactName = Literal[
     "behind",
     "obstacles",
     "heed",
+    "goal",
+    "diagonal",
 ]
 """What is asked of how this world is made.
 
@@ -254,7 +259,8 @@ WorldFactName = Literal[
 like; `endings`: what follows an end; `road_made`: how roads are drawn; `constancy`: whether the weather
 changes; `contact`: what counts as a crash; `points`: whether there are any; `behind`: whether anything comes
 from behind; `obstacles`: what sets barriers and potholes apart, and whether they move or can be passed;
-`heed`: whether others see the ego and react to it.
+`heed`: whether others see the ego and react to it; `goal`: what the goal is, and who says that it is reached;
+`diagonal`: whether a diagonal move is faster.
 """
 SessionFactName = Literal[
     "picture",
@@ -562,7 +568,10 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "end": (frozenset(),),
     "near_misses": _STRETCHES,
     "move_risk": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
-    **dict.fromkeys(("average_speed", "way_share", "best_time", "straight_line", "luck"), (frozenset(),)),
+    **dict.fromkeys(
+        ("average_speed", "way_share", "best_time", "straight_line", "luck", "started", "hand_since"),
+        (frozenset(),),
+    ),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

@@ -21,6 +21,7 @@ from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.asked_moment import at_its_moment
 from service.narration.believed import NearestBelieved
 from service.narration.blame import Blames
+from service.narration.by_hand import HandsOn
 from service.narration.choices import Choices
 from service.narration.close_calls import CloseCalls
 from service.narration.coming_turn import ComingTurns
@@ -123,7 +124,7 @@ class Answers:
             ),
             DriveEnds(sayings): ("end",),
             CloseCalls(sayings): ("near_misses", "move_risk"),
-            DriveFigures(sayings): ("average_speed", "way_share", "best_time", "straight_line"),
+            DriveFigures(sayings): ("average_speed", "way_share", "best_time", "straight_line", "started"),
             AllOthers(sayings): OF_OTHERS,
             HitMoversTold(sayings): ("the_other", "other_could"),
             PastSightings(sayings): ("sighted", "overlooked", "lost_sight", "noticed"),
@@ -146,6 +147,7 @@ class Answers:
             HandsBeside(sayings): ("hand_beside",),
             HandFacts(sayings): FACTS_OF_DRIVING_BY_HAND,
             Lucks(sayings): ("luck",),
+            HandsOn(sayings): ("hand_since",),
             OtherSeeds(sayings): ("other_seeds",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}

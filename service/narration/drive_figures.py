@@ -35,8 +35,12 @@ class DriveFigures:
                 best = best_time(timeline)
                 text, facts = self._best(best, state.config), best_time_json(best)
             else:
-                drive = drive_so_far(timeline, begun=ask.what != "way_share")
-                tell = {"average_speed": self._speed, "straight_line": self._straight}.get(str(ask.what))
+                drive = drive_so_far(timeline, begun=ask.what not in ("way_share", "started"))
+                tell = {
+                    "average_speed": self._speed,
+                    "straight_line": self._straight,
+                    "started": self._started,
+                }.get(str(ask.what))
                 told = self._share(drive, state.config, asked) if tell is None else tell(drive, state.config)
                 text, facts = told, drive_so_far_json(drive)
         except QuestionError as error:
@@ -77,6 +81,14 @@ class DriveFigures:
             after = in_seconds(self._sayings, drive.half - drive.first, config)
             half = self._say("half", "at", tick=drive.half, seconds=after)
         return f"{half} {share}" if asked.supposes == HALF else f"{share} {half}"
+
+    def _started(self, drive: DriveSoFar, config: Config) -> str:
+        """Lane and row where it began, then where it is now, or ended."""
+        metres = self._sayings.number(drive.rows * config.cell_m)
+        start, now = drive.lanes[0] + 1, drive.lanes[-1] + 1
+        told = self._say("started", "at", lane=start, rows=drive.rows, metres=metres, tick=drive.first)
+        key = "now" if drive.outcome is Outcome.RUNNING else "ended"
+        return f"{told} {self._say('started', key, lane=now, rows=drive.left)}"
 
     def _straight(self, drive: DriveSoFar, config: Config) -> str:
         """How much further it drove than straight ahead as far as it came."""

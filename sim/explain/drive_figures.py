@@ -27,6 +27,8 @@ class DriveSoFar:
     """rows that are left"""
     half: int | None
     """the first tick at which half of the rows, or more, were done; None while they are not"""
+    lanes: tuple[int, int]
+    """the column in which it began, and the latest"""
     counted: Metrics
     """what was counted in it"""
     outcome: Outcome
@@ -66,10 +68,11 @@ def drive_so_far(timeline: Timeline, *, begun: bool = True) -> DriveSoFar:
     first, last = world.episode_start, timeline.tick if world.ended is None else world.ended
     if first >= last and begun:
         raise QuestionError("nothing_yet", tick=timeline.tick)
-    rows = [state.world.road.cell(state.world.av)[1] for state in timeline.between(first, last + 1)]
+    cells = [state.world.road.cell(state.world.av) for state in timeline.between(first, last + 1)]
+    lanes, rows = (cells[0][0], cells[-1][0]), [row for _, row in cells]
     half = next((tick for tick, row in enumerate(rows, first) if 2 * row <= rows[0]), None)
     counted = past(timeline, first, last).counted
-    return DriveSoFar(first, last, rows[0], rows[-1], half, counted, world.outcome)
+    return DriveSoFar(first, last, rows[0], rows[-1], half, lanes, counted, world.outcome)
 
 
 def best_time(timeline: Timeline) -> BestTime:

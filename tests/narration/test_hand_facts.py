@@ -120,3 +120,37 @@ def test_other_chances_leave_the_road_and_what_was_said_as_they_are() -> None:
     assert not luck(timeline).by_chance
     with pytest.raises(QuestionError, match="nothing_yet"):
         luck(driven(1, 0, courtesy=0.5))
+
+
+@pytest.mark.parametrize("code", NARRATORS)
+def test_a_persons_part_is_told_with_what_was_held_back(code: str) -> None:
+    held = 0
+    for seed in range(12):
+        timeline = by_hand(seed, (4, 30)[seed % 2])
+        world = timeline.state.world
+        last = timeline.tick if world.ended is None else world.ended
+        for supposes in (None, "held_back", "would"):
+            told = answer(timeline, code, supposes, about="history", what="hand_since")
+        assert (told["since_tick"], told["moves"]) == (2, last - 2)
+        assert (told["until_tick"] is None) is (world.outcome is Outcome.RUNNING)
+        made = {each["tick"]: timeline.decided(timeline.at(each["tick"])) for each in told["held_back"]}
+        assert all(each is not None and each.held_back for each in made.values())
+        held += len(made)
+        alone = decide(timeline.at(2).with_ego(mode=Mode.AUTO, queue=()))
+        assert alone is not None
+        assert told["planner_would"] == alone.move
+    assert held
+    assert "since_tick" not in answer(driven(1, 4), code, about="history", what="hand_since")
+
+
+@pytest.mark.parametrize("code", NARRATORS)
+def test_start_goal_and_diagonals_are_those_of_the_road(code: str) -> None:
+    for ticks in (0, 5, 200):
+        timeline = driven(2, ticks)
+        told = answer(timeline, code, about="history", what="started")
+        column, row = timeline.at(0).world.road.cell(timeline.at(0).world.av)
+        assert (told["lanes"][0], told["rows"]) == (column + 1, row)
+        column, row = timeline.state.world.road.cell(timeline.state.world.av)
+        assert (told["lanes"][1], told["rows_left"]) == (column + 1, row)
+        assert " 6 " in answer(timeline, code, about="world", what="goal")["text"]
+        assert " 7" in answer(timeline, code, about="world", what="diagonal")["text"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from sim.explain.by_hand import ByHand
 from sim.explain.hand_beside import HandBeside, Stretch
 
 Json = dict[str, Any]
@@ -32,4 +33,15 @@ def _stretch_json(stretch: Stretch) -> Json:
         "stops": stretch.stops,
         "lane_changes": stretch.changes,
         "gap_m": stretch.gap_m,
+    }
+
+
+def by_hand_json(found: ByHand) -> Json:
+    """A person's part in the drive; `until_tick` is null while the person drives."""
+    return {
+        "since_tick": found.since,
+        "until_tick": found.until,
+        "moves": found.moves,
+        "held_back": [{"tick": each.tick, "asked": each.asked} for each in found.held_back],
+        "planner_would": found.would,
     }

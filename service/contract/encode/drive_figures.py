@@ -17,6 +17,7 @@ def drive_so_far_json(drive: DriveSoFar) -> Json:
         "rows": drive.rows,
         "rows_left": drive.left,
         "half_at": drive.half,
+        "lanes": [column + 1 for column in drive.lanes],
         "distance_m": round(drive.counted.distance_m, 3),
         "stays": drive.counted.stay,
     }
