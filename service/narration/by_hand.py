@@ -1,4 +1,4 @@
-"""Answers about a person's part in this drive: since when, what was held back, what the planner meant to do."""
+"""Answers about a person's part in this drive: since when, what was held back, what the planner would do."""
 
 from __future__ import annotations
 
