@@ -18,9 +18,11 @@ from sim.types import Outcome
 
 CONTRARY: Final = ("worse", "riskier", "jerkier")
 """What a question supposes that asks with yes or no whether the planner is ahead."""
-OF_DISTANCE: Final = ("safer", "riskier")
-OF_CALM: Final = ("smoother", "jerkier")
-OF_ALL: Final = ("better", "worse")
+WHO: Final = ("who", "who_safer", "who_smoother")
+"""What it supposes that asks which of the two it is."""
+OF_DISTANCE: Final = ("safer", "riskier", "who_safer")
+OF_CALM: Final = ("smoother", "jerkier", "who_smoother")
+OF_ALL: Final = ("better", "worse", "who")
 
 
 class HandsBeside:
@@ -57,9 +59,9 @@ class HandsBeside:
         if supposes in OF_ALL:
             told.insert(0, Part(0, self._overall(found, supposes)))
         elif supposes in OF_DISTANCE:
-            told = [Part(0, self._first(found.clearance, supposes)), Part(0, self._distance(found))]
+            told = [Part(0, self._first(found, found.clearance, supposes)), Part(0, self._distance(found))]
         elif supposes in OF_CALM:
-            told = [Part(0, self._first(found.calm, supposes)), Part(0, self._calm(found))]
+            told = [Part(0, self._first(found, found.calm, supposes)), Part(0, self._calm(found))]
         else:
             told += [Part(1, self._distance(found)), Part(2, self._calm(found))]
         if supposes in OF_ALL:
@@ -69,10 +71,12 @@ class HandsBeside:
             told.append(Part(2, self._say("by_chance")))
         return within(told)
 
-    def _first(self, sign: int, supposes: str) -> str:
-        """Yes, no, or neither."""
+    def _first(self, found: HandBeside, sign: int, supposes: str) -> str:
+        """Yes or no, or which of the two; neither where both are alike."""
         if sign == 0:
             return self._say("neither")
+        if supposes in WHO:
+            return capital(self._say("leader", "you" if sign > 0 else "other", who=self._who(found)))
         yes = (sign > 0) is not (supposes in CONTRARY)
         return self._say("first", word=self._sayings.say("ahead", "answer", "agree" if yes else "disagree"))
 
@@ -81,7 +85,7 @@ class HandsBeside:
         signs = {"place": found.progress, "distance": found.clearance, "calm": found.calm}
         values = set(signs.values()) - {0}
         if len(values) < 2:
-            return self._first(values.pop() if values else 0, supposes)
+            return self._first(found, values.pop() if values else 0, supposes)
         by = [[self._say("points", name) for name, sign in signs.items() if sign == side] for side in (1, -1)]
         yours, others = (self._sayings.joined(each) for each in by)
         return self._say("partly", yours=yours, others=others, who=self._who(found))

@@ -77,3 +77,20 @@ def test_who_waits_is_told_by_how_far_they_are_behind() -> None:
 def test_where_nobody_drove_that_is_said(code: str) -> None:
     told = answer(alone(1), code, "better", about="planners", what="hand_beside")
     assert "you" not in told
+
+
+@pytest.mark.parametrize("code", NARRATORS)
+def test_which_of_the_two_is_told_without_yes_or_no(code: str) -> None:
+    yes, no = YES_NO[code]
+    for seed in range(8):
+        timeline = by_hand(seed, 14)
+        for who, plain in (("who", "better"), ("who_safer", "safer"), ("who_smoother", "smoother")):
+            named = answer(timeline, code, who, about="planners", what="hand_beside")["text"]
+            judged = answer(timeline, code, plain, about="planners", what="hand_beside")["text"]
+            assert not named.startswith((yes, no))
+            if judged.startswith(yes):
+                assert named.startswith({"en": "You do.", "de": "Du."}[code])
+            elif judged.startswith(f"{no}."):
+                assert named.startswith({"en": "I would.", "de": "Ich."}[code])
+            else:
+                assert named == judged

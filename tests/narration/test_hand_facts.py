@@ -39,19 +39,17 @@ def test_facts_are_told_in_every_state_of_a_session(code: str) -> None:
 
 @pytest.mark.parametrize("code", NARRATORS)
 def test_time_runs_on_by_the_clock_of_the_session(code: str) -> None:
-    yes, no = YES_NO[code]
     ask = Ask(about="world", what="hand_time")
     timeline = by_hand(1, 6)
 
     def told(**clock: Any) -> str:
         return str(NARRATORS[code].answer(Asked(ask, timeline, **clock))["text"])
 
-    assert told(paused=True).startswith(no)
-    assert told().startswith(yes)
-    assert f" {timeline.state.config.step_seconds / 2:g} s".replace(
-        ".", "." if code == "en" else ","
-    ) in told(playback_speed=2)
-    assert told(playback_speed="max").startswith(yes)
+    assert told(paused=True) != told()
+    half = f" {timeline.state.config.step_seconds / 2:g} s".replace(".", "." if code == "en" else ",")
+    assert half in told(playback_speed=2)
+    assert half not in told()
+    assert " s" not in told(playback_speed="max").split(".")[0].split(":")[1][:25]
 
 
 def test_without_a_key_it_stays_and_the_planner_is_asked_all_the_same() -> None:
