@@ -13,6 +13,7 @@ from typing import Final, Literal, get_args
 from service.actions.action import Ask
 from service.actions.questions import (
     WHATS,
+    HandFactName,
     PlannersName,
     SessionFactName,
     WorldFactName,
@@ -26,7 +27,12 @@ Moment = Literal["decision", "state", "drive", "present", "none"]
 _OF_A_DECISION: Final = ("here", "compare", "own")
 """What of planners is asked of one decision; nearly all else is asked of planners in general."""
 
-_OF_THE_WORLD: Final = (*get_args(WorldRuleName), *get_args(WorldFactName), *get_args(SessionFactName))
+_OF_THE_WORLD: Final = (
+    *get_args(WorldRuleName),
+    *get_args(WorldFactName),
+    *get_args(SessionFactName),
+    *get_args(HandFactName),
+)
 """What holds whatever is looked at; `traffic_rules` tells of the drive as well."""
 
 _OF: Final[Mapping[str, Moment]] = {
@@ -40,14 +46,24 @@ _OF: Final[Mapping[str, Moment]] = {
 _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     **{
         ("history", what): "decision"
-        for what in ("seen", "similar", "choices", "runner_up", "scores", "needed")
+        for what in ("seen", "similar", "choices", "runner_up", "scores", "needed", "move_risk")
     },
     **{(about, what): "state" for about in ("why", "why_not", "what_if") for what in WHATS[about]},
     **{
         ("history", what): "state"
         for what in (
             *("waited", "passed", "stopped", "lanes_used", "sighted", "noticed", "shares", "moving"),
-            *("listed", "in_the_way", "advanced"),
+            *(
+                "listed",
+                "in_the_way",
+                "advanced",
+                "near_misses",
+                "average_speed",
+                "way_share",
+                "straight_line",
+                "started",
+                "hand_since",
+            ),
         )
     },
     **{("planners", what): "decision" for what in _OF_A_DECISION},
@@ -60,6 +76,7 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     ("world", "traffic_rules"): "drive",
     ("planners", "parting"): "drive",
     ("planners", "effort"): "state",
+    ("planners", "hand_beside"): "state",
     ("sight", "errors"): "drive",
 }
 """By kind and `what`, where that is another one."""

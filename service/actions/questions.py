@@ -98,13 +98,15 @@ PlannersName = Literal[
     "difference",
     "effort",
     "parting",
+    "hand_beside",
     PlannerFactName,
 ]
 """What about planners is asked.
 
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
 often it arrives, crashes and gets stuck; `difference`: how some differ in general; `effort`: how much a
-search looks at; `parting`: where two first decide otherwise on this road.
+search looks at; `parting`: where two first decide otherwise on this road; `hand_beside`: where it would be
+now, had it driven in place of a person.
 """
 HistoryName = Literal[
     "closest_call",
@@ -142,6 +144,15 @@ HistoryName = Literal[
     "in_the_way",
     "advanced",
     "end",
+    "near_misses",
+    "move_risk",
+    "average_speed",
+    "way_share",
+    "best_time",
+    "straight_line",
+    "luck",
+    "started",
+    "hand_since",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -159,7 +170,11 @@ is detected, or the things of a kind, or all; `overlooked`: what was driven past
 the one before; `shares`: how many moves of each kind were made;
 `moving`: the stretches without a stop; `listed`: the moves in their order; `in_the_way`: the moves other than
 straight on that were for something; `advanced`: how many rows it came ahead; `end`: how, when and where the
-drive ended.
+drive ended; `near_misses`: what came that close that it nearly met; `move_risk`: how near a move came to what
+moves, the latest by default; `average_speed`: of this drive; `way_share`: what part of the way to the goal
+is driven; `best_time`: the least time in which this road can be driven; `straight_line`: how much longer than
+straight ahead it drove; `luck`: how the same drive goes with other chances; `started`: where it
+began; `hand_since`: since when a person drives, and which of its moves were held back.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -235,6 +250,8 @@ WorldFactName = Literal[
     "behind",
     "obstacles",
     "heed",
+    "goal",
+    "diagonal",
 ]
 """What is asked of how this world is made.
 
@@ -242,7 +259,8 @@ WorldFactName = Literal[
 like; `endings`: what follows an end; `road_made`: how roads are drawn; `constancy`: whether the weather
 changes; `contact`: what counts as a crash; `points`: whether there are any; `behind`: whether anything comes
 from behind; `obstacles`: what sets barriers and potholes apart, and whether they move or can be passed;
-`heed`: whether others see the ego and react to it.
+`heed`: whether others see the ego and react to it; `goal`: what the goal is, and who says that it is reached;
+`diagonal`: whether a diagonal move is faster.
 """
 SessionFactName = Literal[
     "picture",
@@ -265,6 +283,12 @@ a pothole may be driven over; `export`: how a drive is saved; `switching`: what 
 `traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim about a rate takes; `keys`:
 which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them.
 """
+HandFactName = Literal["hand_time", "hand_warning", "hand_plan", "hand_blame"]
+"""What is asked of driving by hand.
+
+`hand_time`: whether time runs on without a key; `hand_warning`: whether a crash is warned of; `hand_plan`:
+what the planner does meanwhile, and whose plan is drawn; `hand_blame`: whose a crash is.
+"""
 WorldName = Literal[
     "pace",
     "gap",
@@ -276,6 +300,7 @@ WorldName = Literal[
     WorldRuleName,
     WorldFactName,
     SessionFactName,
+    HandFactName,
 ]
 """What about this world and its rules is asked.
 
@@ -485,7 +510,9 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "method": (frozenset(), frozenset(("planner",))),
     "often": (frozenset(),),
     "difference": (frozenset(("planners",)),),
-    **dict.fromkeys((*get_args(PlannerFactName), "effort"), (frozenset(), frozenset(("planner",)))),
+    **dict.fromkeys(
+        (*get_args(PlannerFactName), "effort", "hand_beside"), (frozenset(), frozenset(("planner",)))
+    ),
     "parting": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
     "cell": (frozenset(), frozenset(("move",))),
@@ -513,6 +540,7 @@ COUNTED: Final[Mapping[str, frozenset[str]]] = {
     "listed": frozenset(("part", "lane", "parameter", "value")),
     "in_the_way": frozenset(("kind", "want", "part", "lane", "parameter", "value")),
     "advanced": frozenset(("part",)),
+    "near_misses": frozenset(("kind",)),
 }
 """What is counted over a drive, and the conditions that each takes beside ticks."""
 
@@ -538,6 +566,12 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "noticed": (frozenset(), frozenset(("tick",))),
     **dict.fromkeys(("shares", "moving", "listed", "in_the_way", "advanced"), _STRETCHES),
     "end": (frozenset(),),
+    "near_misses": _STRETCHES,
+    "move_risk": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
+    **dict.fromkeys(
+        ("average_speed", "way_share", "best_time", "straight_line", "luck", "started", "hand_since"),
+        (frozenset(),),
+    ),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

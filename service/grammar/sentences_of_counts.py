@@ -8,7 +8,7 @@ from typing import Any
 from service.actions import Ask
 from service.grammar.sentences_of_things import Unsayable, number
 
-_BARE = ("stopped", "lane_changes", "lanes_used", "closest_call", "shares")
+_BARE = ("stopped", "lane_changes", "lanes_used", "closest_call", "shares", "near_misses")
 """What has a sentence of its own where no condition is named."""
 
 
@@ -31,7 +31,7 @@ def counted_sentence(words: Mapping[str, Any], ask: Ask, things: str) -> str:
     event = str(ask.metric if ask.what == "ended" else ask.what)
     event += "_kind" if event == "crashes" and ask.kind else "_move" if ask.move and event != "made" else ""
     wish = str(ask.want or "count")
-    if ask.what in ("lanes_used", "closest_call", "shares"):
+    if ask.what in ("lanes_used", "closest_call", "shares", "near_misses"):
         wish = str(ask.what) if ask.lane is None or ask.what == "shares" else "lanes_used_in"
         wish = wish if ask.want is None else "lanes_used_whether"
     told = str(said["events"].get(event, "")).format(move=move, things=things)

@@ -9,6 +9,7 @@ from typing import Final, get_args
 from service.actions import Ask, dump
 from service.actions.questions import (
     OF_OTHERS,
+    HandFactName,
     PlannerFactName,
     SessionFactName,
     WorldFactName,
@@ -20,18 +21,24 @@ from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.asked_moment import at_its_moment
 from service.narration.believed import NearestBelieved
 from service.narration.blame import Blames
+from service.narration.by_hand import HandsOn
 from service.narration.choices import Choices
+from service.narration.close_calls import CloseCalls
 from service.narration.coming_turn import ComingTurns
 from service.narration.confidence import Confidences
 from service.narration.course import Courses
 from service.narration.details import Details
 from service.narration.drive_counts import DriveCounts
 from service.narration.drive_end import DriveEnds
+from service.narration.drive_figures import DriveFigures
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
+from service.narration.hand_beside import HandsBeside
+from service.narration.hand_facts import HandFacts
 from service.narration.history import History
 from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
+from service.narration.luck import Lucks
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
@@ -77,9 +84,13 @@ from sim.explain.sooner import longer_wait, sooner_change, sooner_stop, unstoppe
 from sim.explain.what_if import moment_of
 from sim.types import Kind, Move
 
+_OF_ONE_MOVE: Final = ("choices", "runner_up", "scores", "needed", "move_risk")
+"""What of the past is asked of a single move."""
+
 RULES_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldRuleName)
 FACTS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldFactName)
 FACTS_OF_THE_SESSION: Final[tuple[str, ...]] = get_args(SessionFactName)
+FACTS_OF_DRIVING_BY_HAND: Final[tuple[str, ...]] = get_args(HandFactName)
 FACTS_OF_PLANNERS: Final[tuple[str, ...]] = get_args(PlannerFactName)
 
 
@@ -112,6 +123,8 @@ class Answers:
                 "advanced",
             ),
             DriveEnds(sayings): ("end",),
+            CloseCalls(sayings): ("near_misses", "move_risk"),
+            DriveFigures(sayings): ("average_speed", "way_share", "best_time", "straight_line", "started"),
             AllOthers(sayings): OF_OTHERS,
             HitMoversTold(sayings): ("the_other", "other_could"),
             PastSightings(sayings): ("sighted", "overlooked", "lost_sight", "noticed"),
@@ -131,6 +144,10 @@ class Answers:
             SearchEfforts(sayings): ("effort",),
             SessionFacts(sayings): FACTS_OF_THE_SESSION,
             PlannerPartings(sayings): ("parting",),
+            HandsBeside(sayings): ("hand_beside",),
+            HandFacts(sayings): FACTS_OF_DRIVING_BY_HAND,
+            Lucks(sayings): ("luck",),
+            HandsOn(sayings): ("hand_since",),
             OtherSeeds(sayings): ("other_seeds",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
@@ -273,7 +290,7 @@ _OF_AN_EARLIER_MOVE: Final[Mapping[str | None, Callable[[Asked], Asked]]] = {
 
 def _meets_one_tick(ask: Ask) -> bool:
     """Whether so many ticks back is the tick of one decision, rather than where a stretch begins."""
-    return ask.about not in ("history", "outlook") or ask.what in ("choices", "runner_up", "scores", "needed")
+    return ask.about not in ("history", "outlook") or ask.what in _OF_ONE_MOVE
 
 
 def _at_its_tick(asked: Asked) -> Asked:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, plain
 from service.narration.charges import in_seconds
@@ -10,8 +12,12 @@ from service.narration.values import value_of
 from service.sessions.facts import Asked
 from sim.config import COUNTS
 from sim.perceive.registry import sensor_named
+from sim.rules.dynamics import DEFAULT_DYNAMICS
 from sim.state import SimState
 from sim.types import HAZARDS, KINDS, PLACEABLE, Kind
+
+KMH: Final = 3.6
+"""km/h in a metre a second."""
 
 
 class WorldFacts:
@@ -37,6 +43,8 @@ class WorldFacts:
             "points": self._points,
             "behind": self._behind,
             "heed": self._heed,
+            "goal": self._goal,
+            "diagonal": self._diagonal,
         }
         if ask.what == "obstacles":
             text, facts = self._obstacles((asked.supposes or "").split())
@@ -142,6 +150,28 @@ class WorldFacts:
         brakes = self._rule("brakes", both["attentive"])
         gives = self._rule("gives_way", both["courtesy"])
         return self._say("heed", brakes=brakes, gives=gives), {**both}
+
+    def _goal(self, state: SimState) -> tuple[str, Json]:
+        """That the whole row counts, in whatever lane, by where the ego is."""
+        columns = state.world.road.columns
+        return self._say("goal", lanes=columns), {"row": 0, "lanes": columns}
+
+    def _diagonal(self, state: SimState) -> tuple[str, Json]:
+        """A tick as any move, a row ahead and a lane over; other motions have their own."""
+        config = state.config
+        if config.dynamics != DEFAULT_DYNAMICS:
+            return self._say("diagonal", "other", dynamics=config.dynamics), {"dynamics": config.dynamics}
+        metres = config.cell_m * 2**0.5
+        number = self._sayings.number
+        told = self._say(
+            "diagonal",
+            "grid",
+            metres=number(round(metres, 1)),
+            speed=number(round(KMH * metres / config.step_seconds, 1)),
+            ahead=number(config.cell_m),
+            straight=number(round(KMH * config.cell_m / config.step_seconds, 1)),
+        )
+        return told, {"dynamics": config.dynamics, "metres": round(metres, 3)}
 
     def _rule(self, name: str, share: float) -> str:
         key = "some" if share else "none"

@@ -24,6 +24,9 @@ from sim.world import World
 REACH: Final = 3
 """Cells around the ego in which a mover is looked for; whatever is further off passes at more than a cell."""
 
+NEAR_MISS_M: Final = 0.5
+"""A gap under this many metres, without contact, is a near miss; a lane's width apart is more than that."""
+
 
 @dataclass(frozen=True, slots=True)
 class ClosestCall:
@@ -42,6 +45,11 @@ class ClosestCall:
         """The tick in which it was."""
         return self.before.world.tick
 
+    @property
+    def near_miss(self) -> bool:
+        """Whether it was that close that it counts as a near miss."""
+        return self.gap_m < NEAR_MISS_M
+
 
 def closest_call(states: Iterable[SimState]) -> ClosestCall | None:
     """The closest call of the first ego in states one tick apart, the earliest of equals; None if none."""
@@ -52,15 +60,41 @@ def closest_calls(states: Iterable[SimState], kind: Kind | None = None) -> tuple
     """The closest call with each mover, of a kind or of any: the closest first, of equals the earliest."""
     least: dict[str, ClosestCall] = {}
     for before, after in pairwise(states):
-        for id, own, other in encounters(before.world, after.world):
-            if kind not in (None, kind_of(id)):
-                continue
-            gap_m = round(least_gap(own, other) * before.config.cell_m, 6)
-            if gap_m > 0 and (id not in least or gap_m < least[id].gap_m):
-                ticks = ticks_to_contact(own, other)
-                ttc_s = None if ticks is None else round(ticks * before.config.step_seconds, 6)
-                least[id] = ClosestCall(before, id, gap_m, ttc_s)
+        for call in _calls(before, after, kind):
+            if call.id not in least or call.gap_m < least[call.id].gap_m:
+                least[call.id] = call
     return tuple(sorted(least.values(), key=lambda call: (call.gap_m, call.tick)))
+
+
+def near_misses(states: Iterable[SimState], kind: Kind | None = None) -> tuple[ClosestCall, ...]:
+    """Each near miss in its order; one that lasts several ticks is one, told where the gap was least."""
+    found: list[ClosestCall] = []
+    lasting: dict[str, int] = {}
+    for before, after in pairwise(states):
+        close = [call for call in _calls(before, after, kind) if call.near_miss]
+        here: dict[str, int] = {}
+        for call in close:
+            at = lasting.get(call.id)
+            if at is None:
+                at = len(found)
+                found.append(call)
+            elif call.gap_m < found[at].gap_m:
+                found[at] = call
+            here[call.id] = at
+        lasting = here
+    return tuple(found)
+
+
+def _calls(before: SimState, after: SimState, kind: Kind | None) -> Iterator[ClosestCall]:
+    """What came near without contact in a tick, with its gap."""
+    for id, own, other in encounters(before.world, after.world):
+        if kind not in (None, kind_of(id)):
+            continue
+        gap_m = round(least_gap(own, other) * before.config.cell_m, 6)
+        if gap_m > 0:
+            ticks = ticks_to_contact(own, other)
+            ttc_s = None if ticks is None else round(ticks * before.config.step_seconds, 6)
+            yield ClosestCall(before, id, gap_m, ttc_s)
 
 
 def encounters(before: World, after: World) -> Iterator[tuple[str, Path, Path]]:

@@ -39,19 +39,28 @@ class Replayed:
 
 
 def drive_again(
-    timeline: Timeline, start: SimState, end: int, varied: Mapping[str, Any] | None = None
+    timeline: Timeline,
+    start: SimState,
+    end: int,
+    varied: Mapping[str, Any] | None = None,
+    unsaid: tuple[type, ...] = (),
 ) -> Iterator[tuple[SimState, StepResult]]:
-    """Each tick to the end of the episode that begins in `start`, with the state before it.
+    """Each tick to the end of the episode that goes on in `start`, with the state before it.
 
-    `end`: the last tick whose words are said again; `varied`: settings and their other values. Raises
-    `NotAgainError`, and `ConfigError` for values that cannot be.
+    `end`: the last tick whose words are said again; `varied`: settings and their other values; `unsaid`:
+    kinds of actions that are not said again. Raises `NotAgainError`, and `ConfigError` for values that
+    cannot be.
     """
     state = start
     varied = varied or {}
     if varied:
         state = replace(start, config=start.config.with_parts(**varied)).with_each_ego(belief=NO_BELIEF)
     first, episode = start.world.tick, start.world.episode
-    said = [entry for entry in timeline.entries if first < entry.tick <= end]
+    said = [
+        entry
+        for entry in timeline.entries
+        if first < entry.tick <= end and not isinstance(entry.action, unsaid)
+    ]
     while state.world.outcome is Outcome.RUNNING:
         now = state.world.tick
         for entry in said:
