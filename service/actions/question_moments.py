@@ -23,7 +23,7 @@ Moment = Literal["decision", "state", "drive", "present", "none"]
 """`decision`: the one taken at the tick; `state`: how it stood then; `drive`: the whole episode of the tick;
 `present`: now, whatever is looked at; `none`: no moment at all, or one that the question brings along."""
 
-_OF_A_DECISION: Final = ("here", "compare", "own")
+_OF_A_DECISION: Final = ("here", "compare", "own", "plan")
 """What of planners is asked of one decision; nearly all else is asked of planners in general."""
 
 _OF_THE_WORLD: Final = (*get_args(WorldRuleName), *get_args(WorldFactName), *get_args(SessionFactName))
@@ -59,6 +59,7 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     ("sight", "sensor_fault"): "drive",
     ("world", "traffic_rules"): "drive",
     ("planners", "parting"): "drive",
+    ("planners", "plan_changes"): "drive",
     ("planners", "effort"): "state",
     ("sight", "errors"): "drive",
 }

@@ -98,13 +98,16 @@ PlannersName = Literal[
     "difference",
     "effort",
     "parting",
+    "plan",
+    "plan_changes",
     PlannerFactName,
 ]
 """What about planners is asked.
 
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
 often it arrives, crashes and gets stuck; `difference`: how some differ in general; `effort`: how much a
-search looks at; `parting`: where two first decide otherwise on this road.
+search looks at; `parting`: where two first decide otherwise on this road; `plan`: what was planned at a tick;
+`plan_changes`: how often what was left of a plan was given up.
 """
 HistoryName = Literal[
     "closest_call",
@@ -256,6 +259,7 @@ SessionFactName = Literal[
     "runs_needed",
     "keys",
     "counting",
+    "path_view",
 ]
 """What is asked of the simulator around a drive.
 
@@ -263,7 +267,8 @@ SessionFactName = Literal[
 a pothole may be driven over; `export`: how a drive is saved; `switching`: what can be set during a drive;
 `stepping`: whether one can go back to a tick; `emergency`: why there is no emergency braking;
 `traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim about a rate takes; `keys`:
-which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them.
+which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them;
+`path_view`: what the path that the page draws shows, and why there is none.
 """
 WorldName = Literal[
     "pace",
@@ -487,6 +492,8 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "difference": (frozenset(("planners",)),),
     **dict.fromkeys((*get_args(PlannerFactName), "effort"), (frozenset(), frozenset(("planner",)))),
     "parting": (frozenset(("planners",)),),
+    "plan": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
+    "plan_changes": (frozenset(),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
     "cell": (frozenset(), frozenset(("move",))),
 }

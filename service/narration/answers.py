@@ -40,6 +40,7 @@ from service.narration.next import Next
 from service.narration.other_seeds import OtherSeeds
 from service.narration.others import Others
 from service.narration.others_ahead import AllOthers
+from service.narration.plan_course import PlansTold
 from service.narration.planner_difference import PlannerDifferences
 from service.narration.planner_facts import PlannerFacts
 from service.narration.planner_parting import PlannerPartings
@@ -131,6 +132,7 @@ class Answers:
             SearchEfforts(sayings): ("effort",),
             SessionFacts(sayings): FACTS_OF_THE_SESSION,
             PlannerPartings(sayings): ("parting",),
+            PlansTold(sayings): ("plan", "plan_changes"),
             OtherSeeds(sayings): ("other_seeds",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
