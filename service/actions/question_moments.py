@@ -13,6 +13,7 @@ from typing import Final, Literal, get_args
 from service.actions.action import Ask
 from service.actions.questions import (
     WHATS,
+    DeviceFactName,
     PlannersName,
     SessionFactName,
     WorldFactName,
@@ -53,6 +54,7 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     **{("planners", what): "decision" for what in _OF_A_DECISION},
     **{("planners", what): "none" for what in get_args(PlannersName) if what not in _OF_A_DECISION},
     **{("sight", what): "none" for what in ("detection", "combining", "memory", "unseen", "model")},
+    **{("sight", what): "none" for what in get_args(DeviceFactName)},
     **{("world", what): "none" for what in ("chance", "colours", *_OF_THE_WORLD)},
     ("world", "harm"): "drive",
     ("sight", "prevents"): "drive",
@@ -62,6 +64,10 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     ("planners", "plan_changes"): "drive",
     ("planners", "effort"): "state",
     ("sight", "errors"): "drive",
+    ("sight", "alarm_moves"): "drive",
+    ("sight", "cell_entered"): "decision",
+    ("sight", "look_rate"): "state",
+    ("sight", "own_place"): "state",
 }
 """By kind and `what`, where that is another one."""
 

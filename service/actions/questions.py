@@ -168,6 +168,23 @@ WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
 PartName = Literal["first_half", "second_half", "session"]
 """A stretch that is named without ticks, in place of the present episode."""
+DeviceFactName = Literal[
+    "failure",
+    "look_rate",
+    "speeds",
+    "all_round",
+    "own_place",
+    "evenness",
+    "kinds_apart",
+    "standing",
+]
+"""What is asked of sensors and holds always.
+
+`failure`: whether they break down; `look_rate`: how often they look; `speeds`: whether they measure speed;
+`all_round`: whether they see to the sides and behind; `own_place`: how the ego knows where it is; `evenness`:
+whether the weather is the same everywhere; `kinds_apart`: whether kinds of things are told apart; `standing`:
+whether what stands is seen.
+"""
 SightName = Literal[
     "phantoms",
     "missed",
@@ -194,6 +211,13 @@ SightName = Literal[
     "cell",
     "unknown",
     "would_see",
+    "by_device",
+    "first_device",
+    "cell_entered",
+    "placing",
+    "grid_doubt",
+    "alarm_moves",
+    DeviceFactName,
 ]
 """What about sensing is asked.
 
@@ -206,7 +230,10 @@ weather or light limits it more; `model`: how weather and light are simulated; `
 little is seen; `sensor_choice`: who chose the sensor; `belief`: how sure it is of the nearest thing, which
 device saw that, and whether it is there; `effect`: what weather and light do to a sensor; `errors`: in how
 many ticks what was seen was what was there; `cell`: how sure it is that the cell of a move is free;
-`unknown`: which cells ahead no device sees; `would_see`: whether another sensor would see the nearest thing.
+`unknown`: which cells ahead no device sees; `would_see`: whether another sensor would see the nearest thing;
+`by_device`: what camera, lidar and radar each report now, or one of them alone; `first_device`: which of them
+saw a thing first; `cell_entered`: how sure it was of the cell that it entered; `placing`: how exactly things
+are placed; `grid_doubt`: why the grid is uncertain; `alarm_moves`: which moves a false alarm caused.
 """
 WorldRuleName = Literal[
     "moves",
@@ -430,7 +457,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
-    "sight": QuestionTraits(("what", "kind", "value", "move"), ("what",), runs_episodes=True),
+    "sight": QuestionTraits(
+        ("what", "kind", "value", "move", "tick", "ticks"), ("what",), runs_episodes=True
+    ),
     "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
 
@@ -496,6 +525,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "plan_changes": (frozenset(),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
     "cell": (frozenset(), frozenset(("move",))),
+    "cell_entered": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""

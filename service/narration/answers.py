@@ -9,6 +9,7 @@ from typing import Final, get_args
 from service.actions import Ask, dump
 from service.actions.questions import (
     OF_OTHERS,
+    DeviceFactName,
     PlannerFactName,
     SessionFactName,
     WorldFactName,
@@ -18,13 +19,16 @@ from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.asked_moment import at_its_moment
+from service.narration.belief_checked import BeliefChecked
 from service.narration.believed import NearestBelieved
 from service.narration.blame import Blames
+from service.narration.by_device import ByDeviceTold
 from service.narration.choices import Choices
 from service.narration.coming_turn import ComingTurns
 from service.narration.confidence import Confidences
 from service.narration.course import Courses
 from service.narration.details import Details
+from service.narration.device_facts import DeviceFacts
 from service.narration.drive_counts import DriveCounts
 from service.narration.drive_end import DriveEnds
 from service.narration.glossary import Glossary
@@ -80,6 +84,7 @@ from sim.types import Kind, Move
 
 RULES_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldRuleName)
 FACTS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldFactName)
+FACTS_OF_DEVICES: Final[tuple[str, ...]] = get_args(DeviceFactName)
 FACTS_OF_THE_SESSION: Final[tuple[str, ...]] = get_args(SessionFactName)
 FACTS_OF_PLANNERS: Final[tuple[str, ...]] = get_args(PlannerFactName)
 
@@ -129,6 +134,9 @@ class Answers:
             SensorEffects(sayings): ("limits", "model", "coping", "sensor_choice"),
             NearestBelieved(sayings): ("belief",),
             SensingNow(sayings): ("effect", "errors", "cell", "unknown", "would_see"),
+            ByDeviceTold(sayings): ("by_device", "first_device"),
+            BeliefChecked(sayings): ("cell_entered", "placing", "grid_doubt", "alarm_moves"),
+            DeviceFacts(sayings): FACTS_OF_DEVICES,
             SearchEfforts(sayings): ("effort",),
             SessionFacts(sayings): FACTS_OF_THE_SESSION,
             PlannerPartings(sayings): ("parting",),
