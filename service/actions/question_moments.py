@@ -57,6 +57,8 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     **{("sight", what): "none" for what in get_args(DeviceFactName)},
     **{("world", what): "none" for what in ("chance", "colours", *_OF_THE_WORLD)},
     ("world", "harm"): "drive",
+    ("world", "log_line"): "state",
+    ("world", "path_view"): "present",
     ("sight", "prevents"): "drive",
     ("sight", "sensor_fault"): "drive",
     ("world", "traffic_rules"): "drive",

@@ -287,6 +287,7 @@ SessionFactName = Literal[
     "keys",
     "counting",
     "path_view",
+    "log_line",
 ]
 """What is asked of the simulator around a drive.
 
@@ -295,7 +296,8 @@ a pothole may be driven over; `export`: how a drive is saved; `switching`: what 
 `stepping`: whether one can go back to a tick; `emergency`: why there is no emergency braking;
 `traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim about a rate takes; `keys`:
 which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them;
-`path_view`: what the path that the page draws shows, and why there is none.
+`path_view`: what the path that the page draws shows, and why there is none; `log_line`: what a line of the
+log means.
 """
 WorldName = Literal[
     "pace",

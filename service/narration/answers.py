@@ -36,6 +36,7 @@ from service.narration.goals import Styles
 from service.narration.history import History
 from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
+from service.narration.log_lines import Line, LogLines
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
@@ -85,15 +86,15 @@ from sim.types import Kind, Move
 RULES_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldRuleName)
 FACTS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldFactName)
 FACTS_OF_DEVICES: Final[tuple[str, ...]] = get_args(DeviceFactName)
-FACTS_OF_THE_SESSION: Final[tuple[str, ...]] = get_args(SessionFactName)
+FACTS_OF_THE_SESSION: Final = tuple(what for what in get_args(SessionFactName) if what != "log_line")
 FACTS_OF_PLANNERS: Final[tuple[str, ...]] = get_args(PlannerFactName)
 
 
 class Answers:
     """Answers in one language."""
 
-    def __init__(self, sayings: Sayings) -> None:
-        """`sayings`: the language's."""
+    def __init__(self, sayings: Sayings, line: Line | None = None) -> None:
+        """`sayings`: the language's; `line`: what the log says of a decision."""
         self._advices = Advices(sayings)
         self._sayings = sayings
         self._details = Details(sayings, self.answer)
@@ -139,6 +140,7 @@ class Answers:
             DeviceFacts(sayings): FACTS_OF_DEVICES,
             SearchEfforts(sayings): ("effort",),
             SessionFacts(sayings): FACTS_OF_THE_SESSION,
+            LogLines(sayings, line): ("log_line",),
             PlannerPartings(sayings): ("parting",),
             PlansTold(sayings): ("plan", "plan_changes"),
             OtherSeeds(sayings): ("other_seeds",),

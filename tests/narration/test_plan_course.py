@@ -142,3 +142,16 @@ def test_what_the_path_shows_goes_by_who_drives(code: str) -> None:
     stuck = driven(400, seed=5, planner="astar", barriers=60)
     if stuck.state.world.outcome is Outcome.STUCK:
         assert "A*" in asked(stuck, code, about="world", what="path_view")["text"]
+
+
+@pytest.mark.parametrize("code", NARRATORS)
+def test_a_line_of_the_log_is_told_as_the_log_has_it(code: str) -> None:
+    for seed, ticks in ((1, 9), (2, 200)):
+        timeline = driven(ticks, seed=seed, planner="priority", vehicles=40)
+        told = asked(timeline, code, about="world", what="log_line")
+        state = timeline.at(timeline.tick - 1)
+        decision = timeline.decided(state)
+        assert decision is not None
+        assert told["line"] == NARRATORS[code].decision(decision, state)
+        assert told["line"] in told["text"]
+    assert asked(driven(0), code, about="world", what="log_line")["line"] is None
