@@ -219,7 +219,7 @@ def _change(state: SimState, why: Why, by: str | None, rest: Way | None, new: Wa
     return PlanChange(state, why, by, cells, max(apart, default=0), later)
 
 
-def _decided(state: SimState) -> tuple[Decision]:
+def _decided(state: SimState) -> Decision:
     """What the planner decides by itself in a state. Raises `QuestionError`: `no_answer`."""
     decision = decide(driving(state))
     assert decision is not None
