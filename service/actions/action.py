@@ -188,10 +188,8 @@ class Ask:
         """Raise `ValueError` where a kind of things or a sensor does not belong to what is asked."""
         if self.what == "detection" and self.kind is None and self.value is None:
             raise ValueError("detection is asked of a kind of things or of a sensor")
-        if self.kind is not None and self.what not in ("detection", "belief", "would_see"):
-            raise ValueError(
-                "of sensing, detection, belief and would_see alone are asked of a kind of things"
-            )
+        if self.kind is not None and self.what not in _OF_A_KIND:
+            raise ValueError(f"of sensing, {', '.join(_OF_A_KIND)} alone are asked of a kind of things")
         named = self.value in get_args(SensorName) and self.value != "perfect"
         if self.value is not None and not (self.what in _OF_A_SENSOR and named):
             raise ValueError(f"of one sensor, {', '.join(_OF_A_SENSOR)} are asked, and it is one that errs")
@@ -257,8 +255,10 @@ _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "
 _BESIDE_WHAT = ("move", "tick", "until", "ticks", "seconds", "planners", "planner")
 """Keys that some values of `what` need, and others must not have."""
 
-_OF_A_SENSOR = ("weathers", "sensor_fault", "effect", "range", "detection", "would_see")
+_OF_A_SENSOR = ("weathers", "sensor_fault", "effect", "range", "detection", "would_see", "by_device")
 """What of sensing may be asked of one sensor."""
+_OF_A_KIND = ("detection", "belief", "would_see", "first_device")
+"""What of sensing may be asked of a kind of things."""
 _SUPPOSED = tuple(
     what for names in (PolicyName, SoonerName, SideName, ScaleName, SeedsName) for what in get_args(names)
 )

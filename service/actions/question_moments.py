@@ -13,6 +13,7 @@ from typing import Final, Literal, get_args
 from service.actions.action import Ask
 from service.actions.questions import (
     WHATS,
+    DeviceFactName,
     HandFactName,
     PlannersName,
     SessionFactName,
@@ -24,7 +25,7 @@ Moment = Literal["decision", "state", "drive", "present", "none"]
 """`decision`: the one taken at the tick; `state`: how it stood then; `drive`: the whole episode of the tick;
 `present`: now, whatever is looked at; `none`: no moment at all, or one that the question brings along."""
 
-_OF_A_DECISION: Final = ("here", "compare", "own")
+_OF_A_DECISION: Final = ("here", "compare", "own", "plan")
 """What of planners is asked of one decision; nearly all else is asked of planners in general."""
 
 _OF_THE_WORLD: Final = (
@@ -69,15 +70,23 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     **{("planners", what): "decision" for what in _OF_A_DECISION},
     **{("planners", what): "none" for what in get_args(PlannersName) if what not in _OF_A_DECISION},
     **{("sight", what): "none" for what in ("detection", "combining", "memory", "unseen", "model")},
+    **{("sight", what): "none" for what in get_args(DeviceFactName)},
     **{("world", what): "none" for what in ("chance", "colours", *_OF_THE_WORLD)},
     ("world", "harm"): "drive",
+    ("world", "log_line"): "state",
+    ("world", "path_view"): "present",
     ("sight", "prevents"): "drive",
     ("sight", "sensor_fault"): "drive",
     ("world", "traffic_rules"): "drive",
     ("planners", "parting"): "drive",
+    ("planners", "plan_changes"): "drive",
     ("planners", "effort"): "state",
     ("planners", "hand_beside"): "state",
     ("sight", "errors"): "drive",
+    ("sight", "alarm_moves"): "drive",
+    ("sight", "cell_entered"): "decision",
+    ("sight", "look_rate"): "state",
+    ("sight", "own_place"): "state",
 }
 """By kind and `what`, where that is another one."""
 

@@ -99,6 +99,8 @@ PlannersName = Literal[
     "effort",
     "parting",
     "hand_beside",
+    "plan",
+    "plan_changes",
     PlannerFactName,
 ]
 """What about planners is asked.
@@ -106,7 +108,8 @@ PlannersName = Literal[
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
 often it arrives, crashes and gets stuck; `difference`: how some differ in general; `effort`: how much a
 search looks at; `parting`: where two first decide otherwise on this road; `hand_beside`: where it would be
-now, had it driven in place of a person.
+now, had it driven in place of a person; `plan`: what was planned at a tick; `plan_changes`: how often what was
+left of a plan was given up.
 """
 HistoryName = Literal[
     "closest_call",
@@ -180,6 +183,23 @@ WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
 PartName = Literal["first_half", "second_half", "session"]
 """A stretch that is named without ticks, in place of the present episode."""
+DeviceFactName = Literal[
+    "failure",
+    "look_rate",
+    "speeds",
+    "all_round",
+    "own_place",
+    "evenness",
+    "kinds_apart",
+    "standing",
+]
+"""What is asked of sensors and holds always.
+
+`failure`: whether they break down; `look_rate`: how often they look; `speeds`: whether they measure speed;
+`all_round`: whether they see to the sides and behind; `own_place`: how the ego knows where it is; `evenness`:
+whether the weather is the same everywhere; `kinds_apart`: whether kinds of things are told apart; `standing`:
+whether what stands is seen.
+"""
 SightName = Literal[
     "phantoms",
     "missed",
@@ -206,6 +226,13 @@ SightName = Literal[
     "cell",
     "unknown",
     "would_see",
+    "by_device",
+    "first_device",
+    "cell_entered",
+    "placing",
+    "grid_doubt",
+    "alarm_moves",
+    DeviceFactName,
 ]
 """What about sensing is asked.
 
@@ -218,7 +245,10 @@ weather or light limits it more; `model`: how weather and light are simulated; `
 little is seen; `sensor_choice`: who chose the sensor; `belief`: how sure it is of the nearest thing, which
 device saw that, and whether it is there; `effect`: what weather and light do to a sensor; `errors`: in how
 many ticks what was seen was what was there; `cell`: how sure it is that the cell of a move is free;
-`unknown`: which cells ahead no device sees; `would_see`: whether another sensor would see the nearest thing.
+`unknown`: which cells ahead no device sees; `would_see`: whether another sensor would see the nearest thing;
+`by_device`: what camera, lidar and radar each report now, or one of them alone; `first_device`: which of them
+saw a thing first; `cell_entered`: how sure it was of the cell that it entered; `placing`: how exactly things
+are placed; `grid_doubt`: why the grid is uncertain; `alarm_moves`: which moves a false alarm caused.
 """
 WorldRuleName = Literal[
     "moves",
@@ -274,6 +304,8 @@ SessionFactName = Literal[
     "runs_needed",
     "keys",
     "counting",
+    "path_view",
+    "log_line",
 ]
 """What is asked of the simulator around a drive.
 
@@ -281,7 +313,9 @@ SessionFactName = Literal[
 a pothole may be driven over; `export`: how a drive is saved; `switching`: what can be set during a drive;
 `stepping`: whether one can go back to a tick; `emergency`: why there is no emergency braking;
 `traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim about a rate takes; `keys`:
-which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them.
+which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them;
+`path_view`: what the path that the page draws shows, and why there is none; `log_line`: what a line of the
+log means.
 """
 HandFactName = Literal["hand_time", "hand_warning", "hand_plan", "hand_blame"]
 """What is asked of driving by hand.
@@ -450,7 +484,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     ),
     "quiz": QuestionTraits(runs_episodes=True),
     "rules": QuestionTraits(),
-    "sight": QuestionTraits(("what", "kind", "value", "move"), ("what",), runs_episodes=True),
+    "sight": QuestionTraits(
+        ("what", "kind", "value", "move", "tick", "ticks"), ("what",), runs_episodes=True
+    ),
     "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
 
@@ -514,8 +550,11 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
         (*get_args(PlannerFactName), "effort", "hand_beside"), (frozenset(), frozenset(("planner",)))
     ),
     "parting": (frozenset(("planners",)),),
+    "plan": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
+    "plan_changes": (frozenset(),),
     **dict.fromkeys((*get_args(SightName), *get_args(WorldName)), (frozenset(),)),
     "cell": (frozenset(), frozenset(("move",))),
+    "cell_entered": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
 }
 """What else a question names beside each `what`, in each of the ways it can be said; those of the past have
 `HISTORY_KEYS`."""

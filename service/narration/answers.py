@@ -9,6 +9,7 @@ from typing import Final, get_args
 from service.actions import Ask, dump
 from service.actions.questions import (
     OF_OTHERS,
+    DeviceFactName,
     HandFactName,
     PlannerFactName,
     SessionFactName,
@@ -19,8 +20,10 @@ from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.asked_moment import at_its_moment
+from service.narration.belief_checked import BeliefChecked
 from service.narration.believed import NearestBelieved
 from service.narration.blame import Blames
+from service.narration.by_device import ByDeviceTold
 from service.narration.by_hand import HandsOn
 from service.narration.choices import Choices
 from service.narration.close_calls import CloseCalls
@@ -28,6 +31,7 @@ from service.narration.coming_turn import ComingTurns
 from service.narration.confidence import Confidences
 from service.narration.course import Courses
 from service.narration.details import Details
+from service.narration.device_facts import DeviceFacts
 from service.narration.drive_counts import DriveCounts
 from service.narration.drive_end import DriveEnds
 from service.narration.drive_figures import DriveFigures
@@ -38,6 +42,7 @@ from service.narration.hand_facts import HandFacts
 from service.narration.history import History
 from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
+from service.narration.log_lines import Line, LogLines
 from service.narration.luck import Lucks
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
@@ -47,6 +52,7 @@ from service.narration.next import Next
 from service.narration.other_seeds import OtherSeeds
 from service.narration.others import Others
 from service.narration.others_ahead import AllOthers
+from service.narration.plan_course import PlansTold
 from service.narration.planner_difference import PlannerDifferences
 from service.narration.planner_facts import PlannerFacts
 from service.narration.planner_parting import PlannerPartings
@@ -89,16 +95,17 @@ _OF_ONE_MOVE: Final = ("choices", "runner_up", "scores", "needed", "move_risk")
 
 RULES_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldRuleName)
 FACTS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldFactName)
-FACTS_OF_THE_SESSION: Final[tuple[str, ...]] = get_args(SessionFactName)
 FACTS_OF_DRIVING_BY_HAND: Final[tuple[str, ...]] = get_args(HandFactName)
+FACTS_OF_DEVICES: Final[tuple[str, ...]] = get_args(DeviceFactName)
+FACTS_OF_THE_SESSION: Final = tuple(what for what in get_args(SessionFactName) if what != "log_line")
 FACTS_OF_PLANNERS: Final[tuple[str, ...]] = get_args(PlannerFactName)
 
 
 class Answers:
     """Answers in one language."""
 
-    def __init__(self, sayings: Sayings) -> None:
-        """`sayings`: the language's."""
+    def __init__(self, sayings: Sayings, line: Line | None = None) -> None:
+        """`sayings`: the language's; `line`: what the log says of a decision."""
         self._advices = Advices(sayings)
         self._sayings = sayings
         self._details = Details(sayings, self.answer)
@@ -141,13 +148,18 @@ class Answers:
             SensorEffects(sayings): ("limits", "model", "coping", "sensor_choice"),
             NearestBelieved(sayings): ("belief",),
             SensingNow(sayings): ("effect", "errors", "cell", "unknown", "would_see"),
+            ByDeviceTold(sayings): ("by_device", "first_device"),
+            BeliefChecked(sayings): ("cell_entered", "placing", "grid_doubt", "alarm_moves"),
+            DeviceFacts(sayings): FACTS_OF_DEVICES,
             SearchEfforts(sayings): ("effort",),
             SessionFacts(sayings): FACTS_OF_THE_SESSION,
+            LogLines(sayings, line): ("log_line",),
             PlannerPartings(sayings): ("parting",),
             HandsBeside(sayings): ("hand_beside",),
             HandFacts(sayings): FACTS_OF_DRIVING_BY_HAND,
             Lucks(sayings): ("luck",),
             HandsOn(sayings): ("hand_since",),
+            PlansTold(sayings): ("plan", "plan_changes"),
             OtherSeeds(sayings): ("other_seeds",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}

@@ -45,7 +45,7 @@ class Narrator:
         """`sayings`: the language's."""
         self._sayings = sayings
         self._replies = Replies(sayings)
-        self._answers = Answers(sayings)
+        self._answers = Answers(sayings, self.decision)
         self._ends = Ends(sayings)
         self._rules = Rules(sayings)
         self._options = Options(sayings)

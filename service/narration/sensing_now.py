@@ -24,6 +24,8 @@ from sim.types import Kind, Move
 CLEAR, DAY = "clear", "day"
 AGREE, ALARMS, MISSED = "agree", "alarms", "missed"
 """What of the errors of a drive is asked for first (`Asked.supposes`)."""
+TAKEN: Final = "taken"
+"""What of a cell is asked for, where it is not how likely it is free."""
 FEW_PERCENT, ALMOST_ALL = 0.1, 99.9
 """Percent between which shares are told that are neither nothing nor all."""
 SAYS: Final = 0.5
@@ -205,8 +207,11 @@ class SensingNow:
         if found.taken is None:
             return self._say("unknown_sensor", sensor=state.config.sensor), facts
         threshold = self._percent(1.0 - state.config.detection_sensitivity)
-        percent = self._percent(1.0 - found.taken)
-        told = [Part(0, self._say("cell", "free", where=where, percent=percent))]
+        if TAKEN in (asked.supposes or "").split():
+            first = self._say("cell", "taken", where=where, percent=self._percent(found.taken))
+        else:
+            first = self._say("cell", "free", where=where, percent=self._percent(1.0 - found.taken))
+        told = [Part(0, first)]
         if found.shown is not None:
             told.insert(
                 0, Part(0, self._say("cell", "shown", a=self._sayings.say("words", "a", found.shown)))

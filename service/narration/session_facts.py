@@ -10,8 +10,11 @@ from service.narration.answerer import Json, plain
 from service.narration.sayings import Sayings
 from service.narration.values import value_of
 from service.sessions.facts import Asked
+from sim.explain import QuestionError
+from sim.explain.plan_course import way_then
 from sim.perceive.registry import sensor_named
 from sim.rules.dynamics import DEFAULT_DYNAMICS
+from sim.session.timeline import Timeline
 from sim.statistics import tries_to_claim
 from sim.types import Mode, Outcome
 
@@ -43,6 +46,7 @@ class SessionFacts:
             "runs_needed": self._runs_needed,
             "keys": self._keys,
             "counting": self._counting,
+            "path_view": self._path_view,
         }[str(asked.ask.what)]
         text, facts = tell(asked)
         return plain(self._sayings, asked.ask, asked.timeline.state, text) | {"what": asked.ask.what} | facts
@@ -157,6 +161,33 @@ class SessionFacts:
             told.append(Part(2, now))
         counted = {"successes": metrics.successes, "crashes": metrics.crashes, "stuck": metrics.stuck}
         return within(told), counted
+
+    def _path_view(self, asked: Asked) -> tuple[str, Json]:
+        """What the path on the page is: while it drives, while a person does, once the drive has ended."""
+        timeline = asked.timeline
+        state, why_none = timeline.state, "none" in (asked.supposes or "").split()
+        if state.world.outcome is not Outcome.RUNNING:
+            told = [Part(0, self._say("path_view", "ended")), Part(2, self._say("path_view", "ended_rest"))]
+            if state.world.outcome is Outcome.STUCK:
+                told.append(Part(1, self._last_plan(timeline)))
+            return within(told), {"drawn": False}
+        if state.mode is Mode.MANUAL:
+            return self._say("path_view", "by_hand"), {"drawn": False}
+        switch = self._say("path_view", "off", example=self._say("path_view", "example"))
+        told = [Part(0, self._say("path_view", "behind")), Part(1, self._say("path_view", "above"))]
+        told.insert(0 if why_none else 2, Part(0 if why_none else 2, switch))
+        return within(told), {"drawn": True}
+
+    def _last_plan(self, timeline: Timeline) -> str:
+        """Whether the planner had a way to the goal in its last decision; empty where that is unknown."""
+        try:
+            found = way_then(timeline)
+        except QuestionError:
+            return ""
+        key = "last_way" if found.searching and found.way is not None else "last_none"
+        if not found.searching:
+            key = "last_move"
+        return self._say("path_view", key, planner=self._sayings.planner(found.planner))
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("session_facts", *keys, **parts)

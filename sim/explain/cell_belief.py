@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from sim.decide import sense
 from sim.perceive import sensor_named
 from sim.perceive.parameters import SUITES
 from sim.state import SimState
 from sim.types import HAZARDS, MOVERS, PLACEABLE, Cell, Kind, Move
+
+if TYPE_CHECKING:
+    from sim.perceive.belief import Layers
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,19 +65,33 @@ def cell_belief(state: SimState, move: Move) -> CellBelief:
     if faithful or state.config.sensor not in SUITES:
         return CellBelief(cell, faithful, None, None, shown, truth)
     # Needs numpy, which sessions with the perfect sensor do without.
-    from sim.perceive.belief import LAYER, RIGHT, GridBelief, probabilities, unpacked
+    from sim.perceive.belief import GridBelief, unpacked
 
     if not isinstance(belief, GridBelief):
         return CellBelief(cell, faithful, None, None, shown, truth)
-    here = probabilities(unpacked(belief.layers, road)[:, cell[1], cell[0]])
+    layers = unpacked(belief.layers, road)
+    by_kind = _by_kind(layers, cell)
+    likeliest = max(PLACEABLE, key=lambda kind: by_kind[kind])
+    return CellBelief(cell, faithful, taken_in(layers, cell), likeliest, shown, truth)
+
+
+def taken_in(layers: Layers, cell: Cell) -> float:
+    """How likely anything is in a cell of a belief, each kind by itself."""
+    free = 1.0
+    for likely in _by_kind(layers, cell).values():
+        free *= 1.0 - likely
+    return 1.0 - free
+
+
+def _by_kind(layers: Layers, cell: Cell) -> dict[Kind, float]:
+    # Needs numpy, which sessions with the perfect sensor do without.
+    from sim.perceive.belief import LAYER, RIGHT, probabilities
+
+    here = probabilities(layers[:, cell[1], cell[0]])
     by_kind = {kind: float(here[LAYER[kind]]) for kind in HAZARDS}
     for kind in MOVERS:  # a mover heads one way or the other
         by_kind[kind] = min(1.0, float(here[RIGHT[kind]] + here[RIGHT[kind] + 1]))
-    free = 1.0
-    for likely in by_kind.values():
-        free *= 1.0 - likely
-    likeliest = max(PLACEABLE, key=lambda kind: by_kind[kind])
-    return CellBelief(cell, faithful, 1.0 - free, likeliest, shown, truth)
+    return by_kind
 
 
 def unknown_cells(state: SimState) -> UnknownCells | None:
