@@ -54,6 +54,7 @@ OutlookName = Literal[
     "next_change",
     "others",
     "crossing",
+    "gaps",
 ]
 """What of the time ahead is asked about.
 
@@ -61,7 +62,8 @@ OutlookName = Literal[
 `free`: which moves meet nothing now; `matters`: what the coming move hangs on; `risk`: how safe it is now;
 `coming`: what happens in the next ticks or seconds; `safest`: which move is; `next_stop`,
 `next_change`: when the vehicle will next stop or change lanes; `others`: where the cars and people on foot
-go, or those of a kind; `crossing`: which of them come into the lane ahead of the vehicle.
+go, or those of a kind; `crossing`: which of them come into the lane ahead of the vehicle;
+`gaps`: what the next rows of barriers leave free.
 """
 BlameName = Literal[
     "fault", "too_late", "foreseen", "avoidable", "human", "first_seen", "the_other", "other_could"
@@ -465,6 +467,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "safest": (frozenset(),),
     "next_stop": (frozenset(),),
     "next_change": (frozenset(),),
+    "gaps": (frozenset(),),
     **dict.fromkeys(OF_OTHERS, (frozenset(),)),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),

@@ -18,6 +18,7 @@ from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.asked_moment import at_its_moment
+from service.narration.barred_rows import BarredRowsTold
 from service.narration.believed import NearestBelieved
 from service.narration.blame import Blames
 from service.narration.choices import Choices
@@ -113,6 +114,7 @@ class Answers:
             ),
             DriveEnds(sayings): ("end",),
             AllOthers(sayings): OF_OTHERS,
+            BarredRowsTold(sayings): ("gaps",),
             HitMoversTold(sayings): ("the_other", "other_could"),
             PastSightings(sayings): ("sighted", "overlooked", "lost_sight", "noticed"),
             Necessities(sayings): ("needed",),
