@@ -33,6 +33,7 @@ from service.narration.goals import Styles
 from service.narration.history import History
 from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
+from service.narration.lost_way import LostWays
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
@@ -113,6 +114,7 @@ class Answers:
                 "advanced",
             ),
             DriveEnds(sayings): ("end",),
+            LostWays(sayings): ("stuck_cause", "knowable"),
             AllOthers(sayings): OF_OTHERS,
             BarredRowsTold(sayings): ("gaps",),
             HitMoversTold(sayings): ("the_other", "other_could"),

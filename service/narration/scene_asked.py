@@ -74,5 +74,5 @@ class SceneAsked:
 
     @property
     def row(self) -> str | None:
-        """`next` for the row right ahead, `gap` or `beyond` of the nearest row of a kind, `at`: its number; or None."""
+        """`next`: the row right ahead; `gap`, `beyond`: the nearest of a kind; `at`: its number; or None."""
         return self.words[1] if self.words[:1] == (ROW,) else None

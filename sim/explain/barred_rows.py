@@ -1,8 +1,8 @@
 """The rows of barriers ahead: which lanes they close, which are free, and which of those can be got to.
 
 By the road as it is. A lane of a row is closed where a barrier or a pothole stands in it; who only drives
-through it closes nothing. That a free cell is got to, and that a way to the goal leads through it, is searched
-in the forecast in which nobody reacts; that it cannot be got to, among the things that stand.
+through it closes nothing. That a free cell is got to, and that a way to the goal leads through it, is
+searched in the forecast in which nobody reacts; that it cannot be got to, among the things that stand.
 """
 
 from __future__ import annotations
