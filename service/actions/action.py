@@ -20,7 +20,7 @@ from service.actions.parameters import MAX_PARAMETERS, PhraseParameter, figure
 from service.actions.questions import (
     COUNTED,
     HISTORY_KEYS,
-    OF_OTHERS,
+    OF_A_KIND,
     QUESTIONS,
     WHAT_KEYS,
     WHATS,
@@ -159,8 +159,10 @@ class Ask:
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
         if self.about == "history":
             self._check_counted()
-        if self.about == "outlook" and self.kind is not None and self.what not in OF_OTHERS:
-            raise ValueError("of the time ahead, other road users alone are asked of a kind of things")
+        if self.about == "outlook" and self.kind is not None and self.what not in OF_A_KIND:
+            raise ValueError(
+                "of the time ahead, other road users and what is dangerous are asked of a kind of things"
+            )
         if self.about == "sight":
             self._check_sight()
         if self.about == "what_if" and (self.kind is None) is (self.what in get_args(ScaleName)):

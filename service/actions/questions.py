@@ -55,6 +55,8 @@ OutlookName = Literal[
     "others",
     "crossing",
     "gaps",
+    "danger",
+    "worst",
 ]
 """What of the time ahead is asked about.
 
@@ -63,7 +65,8 @@ OutlookName = Literal[
 `coming`: what happens in the next ticks or seconds; `safest`: which move is; `next_stop`,
 `next_change`: when the vehicle will next stop or change lanes; `others`: where the cars and people on foot
 go, or those of a kind; `crossing`: which of them come into the lane ahead of the vehicle;
-`gaps`: what the next rows of barriers leave free.
+`gaps`: what the next rows of barriers leave free;
+`danger`: what is most dangerous now, of all or of a kind; `worst`: what may come at worst in some ticks.
 """
 BlameName = Literal[
     "fault", "too_late", "foreseen", "avoidable", "human", "first_seen", "the_other", "other_could"
@@ -435,6 +438,8 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
 
 OF_OTHERS: Final = ("others", "crossing")
 """What of the time ahead may be asked of other road users of one kind."""
+OF_A_KIND: Final = (*OF_OTHERS, "danger")
+"""What of the time ahead may be asked of things of one kind."""
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
     "why": (*get_args(MomentName), *get_args(SideName)),
@@ -469,7 +474,8 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "safest": (frozenset(),),
     "next_stop": (frozenset(),),
     "next_change": (frozenset(),),
-    "gaps": (frozenset(),),
+    **dict.fromkeys(("gaps", "danger"), (frozenset(),)),
+    "worst": (frozenset(), frozenset(("ticks",)), frozenset(("seconds",))),
     **dict.fromkeys(OF_OTHERS, (frozenset(),)),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),

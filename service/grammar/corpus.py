@@ -295,6 +295,9 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "sight", "what": "sensor_fault", "value": "radar"}
     yield {"do": "ask", "about": "outlook", "what": "others", "kind": "vehicle"}
     yield {"do": "ask", "about": "outlook", "what": "crossing", "kind": "pedestrian"}
+    yield {"do": "ask", "about": "outlook", "what": "danger", "kind": "vehicle"}
+    yield {"do": "ask", "about": "outlook", "what": "worst", "ticks": 3}
+    yield {"do": "ask", "about": "outlook", "what": "worst", "seconds": 2.5}
     yield {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3}
     yield {"do": "ask", "about": "outlook", "what": "coming", "seconds": 2.5}
     for what in (*WHATS["blame"], "own"):

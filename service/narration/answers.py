@@ -25,6 +25,7 @@ from service.narration.choices import Choices
 from service.narration.coming_turn import ComingTurns
 from service.narration.confidence import Confidences
 from service.narration.course import Courses
+from service.narration.dangers import DangersTold
 from service.narration.details import Details
 from service.narration.drive_counts import DriveCounts
 from service.narration.drive_end import DriveEnds
@@ -117,6 +118,7 @@ class Answers:
             LostWays(sayings): ("stuck_cause", "knowable"),
             AllOthers(sayings): OF_OTHERS,
             BarredRowsTold(sayings): ("gaps",),
+            DangersTold(sayings): ("danger", "worst"),
             HitMoversTold(sayings): ("the_other", "other_could"),
             PastSightings(sayings): ("sighted", "overlooked", "lost_sight", "noticed"),
             Necessities(sayings): ("needed",),
