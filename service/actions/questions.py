@@ -149,6 +149,8 @@ HistoryName = Literal[
     "end",
     "stuck_cause",
     "knowable",
+    "influence",
+    "trouble",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -166,7 +168,8 @@ is detected, or the things of a kind, or all; `overlooked`: what was driven past
 the one before; `shares`: how many moves of each kind were made;
 `moving`: the stretches without a stop; `listed`: the moves in their order; `in_the_way`: the moves other than
 straight on that were for something; `advanced`: how many rows it came ahead; `end`: how, when and where the
-drive ended; `stuck_cause`: why it got stuck; `knowable`: when it could have been known that no way was left.
+drive ended; `stuck_cause`: why it got stuck; `knowable`: when it could have been known that no way was left;
+`influence`: whether others braked or turned because of it; `trouble`: what its moves hung on most.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -517,6 +520,7 @@ COUNTED: Final[Mapping[str, frozenset[str]]] = {
     "moving": frozenset(("want", "part", "lane", "parameter", "value")),
     "lanes_used": frozenset(("want", "part", "lane", "parameter", "value")),
     "passed": frozenset(("kind",)),
+    "trouble": frozenset(("kind",)),
     "sighted": frozenset(("kind", "want")),
     "overlooked": frozenset(("kind",)),
     "closest_call": frozenset(("kind",)),
@@ -548,7 +552,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     **dict.fromkeys(("first_half", "second_half", "sighted", "overlooked", "lost_sight"), (frozenset(),)),
     "noticed": (frozenset(), frozenset(("tick",))),
     **dict.fromkeys(("shares", "moving", "listed", "in_the_way", "advanced"), _STRETCHES),
-    **dict.fromkeys(("end", "stuck_cause", "knowable"), (frozenset(),)),
+    **dict.fromkeys(("end", "stuck_cause", "knowable", "influence", "trouble"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

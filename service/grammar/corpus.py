@@ -224,11 +224,11 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "history", "what": what}
     for what in ("stopped", "lanes_used", "tight", "first_half", "second_half"):
         yield {"do": "ask", "about": "history", "what": what}
-    for what in ("passed", "stopped", "closest_call"):
+    for what in ("passed", "stopped", "closest_call", "trouble"):
         yield {"do": "ask", "about": "history", "what": what, "kind": "pedestrian"}
     for what in ("sighted", "overlooked", "lost_sight", "noticed", "shares", "listed", "advanced", "end"):
         yield {"do": "ask", "about": "history", "what": what}
-    for what in ("stuck_cause", "knowable"):
+    for what in ("stuck_cause", "knowable", "influence", "trouble"):
         yield {"do": "ask", "about": "history", "what": what}
     for want in ("first", "last", "share"):
         yield {"do": "ask", "about": "history", "what": "sighted", "want": want}

@@ -34,6 +34,7 @@ from service.narration.goals import Styles
 from service.narration.history import History
 from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
+from service.narration.influence import Influences
 from service.narration.lost_way import LostWays
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
@@ -116,6 +117,7 @@ class Answers:
             ),
             DriveEnds(sayings): ("end",),
             LostWays(sayings): ("stuck_cause", "knowable"),
+            Influences(sayings): ("influence", "trouble"),
             AllOthers(sayings): OF_OTHERS,
             BarredRowsTold(sayings): ("gaps",),
             DangersTold(sayings): ("danger", "worst"),
