@@ -57,6 +57,7 @@ OutlookName = Literal[
     "gaps",
     "danger",
     "worst",
+    "lane",
 ]
 """What of the time ahead is asked about.
 
@@ -66,7 +67,8 @@ OutlookName = Literal[
 `next_change`: when the vehicle will next stop or change lanes; `others`: where the cars and people on foot
 go, or those of a kind; `crossing`: which of them come into the lane ahead of the vehicle;
 `gaps`: what the next rows of barriers leave free;
-`danger`: what is most dangerous now, of all or of a kind; `worst`: what may come at worst in some ticks.
+`danger`: what is most dangerous now, of all or of a kind; `worst`: what may come at worst in some ticks;
+`lane`: why it does not take a lane, and what would come of that.
 """
 BlameName = Literal[
     "fault", "too_late", "foreseen", "avoidable", "human", "first_seen", "the_other", "other_could"
@@ -296,9 +298,9 @@ OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
 MomentName = Literal["detour"]
 """What moment is asked about, in place of a tick: the latest move to the side or diagonally."""
-PolicyName = Literal["straight", "stand", "in_lane", "nonstop"]
+PolicyName = Literal["straight", "stand", "in_lane", "to_lane", "nonstop"]
 """By what rule it is supposed to drive: `straight`: forward in every tick; `stand`: staying in every tick;
-`in_lane`: in one lane; `nonstop`: without staying.
+`in_lane`: in one lane; `to_lane`: in the lane that is named, from the start; `nonstop`: without staying.
 """
 SoonerName = Literal["sooner_stop", "sooner_change", "longer_wait", "unstopped"]
 """What is supposed of this drive so far: its latest stop or lane change a tick sooner, that stop a tick
@@ -400,7 +402,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "why": QuestionTraits(("move", "instead", "what", "tick", "ticks", "seconds"), runs_episodes=True),
     "why_not": QuestionTraits(("move", "what", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
     "what_if": QuestionTraits(
-        ("change", "move", "what", "kind", "tick", "ticks", "seconds", "count"), runs_episodes=True
+        ("change", "move", "what", "kind", "tick", "ticks", "seconds", "count", "lane"), runs_episodes=True
     ),
     "next": QuestionTraits(("kind",), runs_episodes=True),
     "scene": QuestionTraits(("kind", "count")),
@@ -428,7 +430,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
         ("what", "which", "move", "tick", "ticks", "seconds", "count"), ("what", "which"), runs_episodes=True
     ),
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
-    "outlook": QuestionTraits(("what", "move", "ticks", "seconds", "kind"), ("what",), runs_episodes=True),
+    "outlook": QuestionTraits(
+        ("what", "move", "ticks", "seconds", "kind", "lane"), ("what",), runs_episodes=True
+    ),
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
     "planners": QuestionTraits(
         ("what", "planners", "planner", "tick", "ticks"), ("what",), runs_episodes=True
@@ -477,7 +481,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "safest": (frozenset(),),
     "next_stop": (frozenset(),),
     "next_change": (frozenset(),),
-    **dict.fromkeys(("gaps", "danger"), (frozenset(),)),
+    **dict.fromkeys(("gaps", "danger", "lane"), (frozenset(),)),
     "worst": (frozenset(), frozenset(("ticks",)), frozenset(("seconds",))),
     **dict.fromkeys(OF_OTHERS, (frozenset(),)),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),

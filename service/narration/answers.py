@@ -35,6 +35,7 @@ from service.narration.history import History
 from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
 from service.narration.influence import Influences
+from service.narration.lane_taken import LanesTaken
 from service.narration.lost_way import LostWays
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
@@ -120,6 +121,7 @@ class Answers:
             Influences(sayings): ("influence", "trouble"),
             AllOthers(sayings): OF_OTHERS,
             BarredRowsTold(sayings): ("gaps",),
+            LanesTaken(sayings): ("lane",),
             DangersTold(sayings): ("danger", "worst"),
             HitMoversTold(sayings): ("the_other", "other_could"),
             PastSightings(sayings): ("sighted", "overlooked", "lost_sight", "noticed"),
