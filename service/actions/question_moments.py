@@ -17,6 +17,7 @@ from service.actions.questions import (
     SessionFactName,
     WorldFactName,
     WorldRuleName,
+    WorldTruthName,
 )
 
 Moment = Literal["decision", "state", "drive", "present", "none"]
@@ -26,7 +27,11 @@ Moment = Literal["decision", "state", "drive", "present", "none"]
 _OF_A_DECISION: Final = ("here", "compare", "own")
 """What of planners is asked of one decision; nearly all else is asked of planners in general."""
 
-_OF_THE_WORLD: Final = (*get_args(WorldRuleName), *get_args(WorldFactName), *get_args(SessionFactName))
+_OF_THE_WORLD: Final = tuple(
+    what
+    for names in (WorldRuleName, WorldFactName, SessionFactName, WorldTruthName)
+    for what in get_args(names)
+)
 """What holds whatever is looked at; `traffic_rules` tells of the drive as well."""
 
 _OF: Final[Mapping[str, Moment]] = {

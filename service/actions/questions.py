@@ -58,6 +58,7 @@ OutlookName = Literal[
     "danger",
     "worst",
     "lane",
+    "liable",
 ]
 """What of the time ahead is asked about.
 
@@ -68,15 +69,25 @@ OutlookName = Literal[
 go, or those of a kind; `crossing`: which of them come into the lane ahead of the vehicle;
 `gaps`: what the next rows of barriers leave free;
 `danger`: what is most dangerous now, of all or of a kind; `worst`: what may come at worst in some ticks;
-`lane`: why it does not take a lane, and what would come of that.
+`lane`: why it does not take a lane, and what would come of that; `liable`: whose a crash would be now.
 """
 BlameName = Literal[
-    "fault", "too_late", "foreseen", "avoidable", "human", "first_seen", "the_other", "other_could"
+    "fault",
+    "too_late",
+    "foreseen",
+    "avoidable",
+    "human",
+    "first_seen",
+    "the_other",
+    "other_could",
+    "rules",
+    "bug",
 ]
 """What about a crash is asked.
 
 `human`: whether a person would have crashed; `first_seen`: since when what was hit was seen; `the_other`:
-where what was hit came from, and how fast; `other_could`: whether it could have kept clear.
+where what was hit came from, and how fast; `other_could`: whether it could have kept clear; `rules`: what
+part the planner's own rules had; `bug`: whether the program did other than its rules say.
 """
 PlannerFactName = Literal[
     "lookahead",
@@ -153,6 +164,7 @@ HistoryName = Literal[
     "knowable",
     "influence",
     "trouble",
+    "explained",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -171,7 +183,8 @@ the one before; `shares`: how many moves of each kind were made;
 `moving`: the stretches without a stop; `listed`: the moves in their order; `in_the_way`: the moves other than
 straight on that were for something; `advanced`: how many rows it came ahead; `end`: how, when and where the
 drive ended; `stuck_cause`: why it got stuck; `knowable`: when it could have been known that no way was left;
-`influence`: whether others braked or turned because of it; `trouble`: what its moves hung on most.
+`influence`: whether others braked or turned because of it; `trouble`: what its moves hung on most;
+`explained`: the last moves, each with its reason.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -277,6 +290,22 @@ a pothole may be driven over; `export`: how a drive is saved; `switching`: what 
 `traffic_rules`: whether one was broken; `runs_needed`: how many runs a claim about a rate takes; `keys`:
 which keys drive; `counting`: what the figures of a session count, and whether drives by hand are among them.
 """
+WorldTruthName = Literal[
+    "real_car",
+    "general_safety",
+    "safety_gear",
+    "car_talk",
+    "rule_makers",
+    "goal_row",
+    "all_lanes",
+]
+"""What is asked of this world beside the real one, and of its road.
+
+`real_car`: what a real self-driving car would do; `general_safety`: whether such cars are safe;
+`safety_gear`: airbags, seat belts, a call for help; `car_talk`: whether cars tell each other anything; `rule_makers`: who
+made the rules; `goal_row`: where the goal is, and whether all of its row; `all_lanes`: whether all lanes may
+be used.
+"""
 WorldName = Literal[
     "pace",
     "gap",
@@ -288,6 +317,7 @@ WorldName = Literal[
     WorldRuleName,
     WorldFactName,
     SessionFactName,
+    WorldTruthName,
 ]
 """What about this world and its rules is asked.
 
@@ -481,7 +511,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "safest": (frozenset(),),
     "next_stop": (frozenset(),),
     "next_change": (frozenset(),),
-    **dict.fromkeys(("gaps", "danger", "lane"), (frozenset(),)),
+    **dict.fromkeys(("gaps", "danger", "lane", "liable"), (frozenset(),)),
     "worst": (frozenset(), frozenset(("ticks",)), frozenset(("seconds",))),
     **dict.fromkeys(OF_OTHERS, (frozenset(),)),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
@@ -556,6 +586,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     **dict.fromkeys(("first_half", "second_half", "sighted", "overlooked", "lost_sight"), (frozenset(),)),
     "noticed": (frozenset(), frozenset(("tick",))),
     **dict.fromkeys(("shares", "moving", "listed", "in_the_way", "advanced"), _STRETCHES),
+    "explained": (frozenset(), frozenset(("ticks",))),
     **dict.fromkeys(("end", "stuck_cause", "knowable", "influence", "trouble"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))

@@ -230,7 +230,8 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "history", "what": what, "kind": "pedestrian"}
     for what in ("sighted", "overlooked", "lost_sight", "noticed", "shares", "listed", "advanced", "end"):
         yield {"do": "ask", "about": "history", "what": what}
-    for what in ("stuck_cause", "knowable", "influence", "trouble"):
+    yield {"do": "ask", "about": "history", "what": "explained", "ticks": 5}
+    for what in ("stuck_cause", "knowable", "influence", "trouble", "explained"):
         yield {"do": "ask", "about": "history", "what": what}
     for want in ("first", "last", "share"):
         yield {"do": "ask", "about": "history", "what": "sighted", "want": want}

@@ -13,6 +13,7 @@ from service.actions.questions import (
     SessionFactName,
     WorldFactName,
     WorldRuleName,
+    WorldTruthName,
 )
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
@@ -40,6 +41,7 @@ from service.narration.lost_way import LostWays
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
+from service.narration.move_reasons import MoveReasons
 from service.narration.necessity import Necessities
 from service.narration.next import Next
 from service.narration.other_seeds import OtherSeeds
@@ -51,6 +53,7 @@ from service.narration.planner_parting import PlannerPartings
 from service.narration.planners import Planners
 from service.narration.quiz.answer import Quizzes
 from service.narration.ranking import Rankings
+from service.narration.rule_fault import RuleFaults
 from service.narration.rules import RulesTold
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
@@ -73,6 +76,7 @@ from service.narration.why import Whys
 from service.narration.world import Worlds
 from service.narration.world_facts import WorldFacts
 from service.narration.world_rules import WorldRules
+from service.narration.world_truths import WorldTruths
 from service.sessions.facts import Advised, Answerable, Asked
 from sim.actions import Drive, SetCount
 from sim.explain import QuestionError
@@ -84,6 +88,7 @@ from sim.types import Kind, Move
 
 RULES_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldRuleName)
 FACTS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldFactName)
+TRUTHS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldTruthName)
 FACTS_OF_THE_SESSION: Final[tuple[str, ...]] = get_args(SessionFactName)
 FACTS_OF_PLANNERS: Final[tuple[str, ...]] = get_args(PlannerFactName)
 
@@ -119,6 +124,8 @@ class Answers:
             DriveEnds(sayings): ("end",),
             LostWays(sayings): ("stuck_cause", "knowable"),
             Influences(sayings): ("influence", "trouble"),
+            MoveReasons(sayings): ("explained",),
+            RuleFaults(sayings): ("rules", "bug", "liable"),
             AllOthers(sayings): OF_OTHERS,
             BarredRowsTold(sayings): ("gaps",),
             LanesTaken(sayings): ("lane",),
@@ -130,6 +137,7 @@ class Answers:
             SensingCompared(sayings): ("care", "weathers", "sensors"),
             WorldRules(sayings): RULES_OF_THE_WORLD,
             WorldFacts(sayings): FACTS_OF_THE_WORLD,
+            WorldTruths(sayings): TRUTHS_OF_THE_WORLD,
             PlannerFacts(sayings): FACTS_OF_PLANNERS,
             SensingFacts(sayings): ("memory", "unseen", "detection", "combining"),
             PlannerDifferences(sayings): ("difference",),

@@ -95,7 +95,8 @@ class LostWays:
         name = found.state.config_of(None).planner
         planner = self._sayings.planner(name, "id")
         if not traits_of(name).plans_to_goal:
-            return self._say("method", "near", planner=planner)
+            key = "passages" if traits_of(name).by_passages else "near"
+            return self._say("method", key, planner=planner)
         if found.noticed is None:
             return ""
         return self._say("method", "noticed", planner=planner, tick=found.noticed)
