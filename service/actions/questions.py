@@ -302,9 +302,9 @@ WorldTruthName = Literal[
 """What is asked of this world beside the real one, and of its road.
 
 `real_car`: what a real self-driving car would do; `general_safety`: whether such cars are safe;
-`safety_gear`: airbags, seat belts, a call for help; `car_talk`: whether cars tell each other anything; `rule_makers`: who
-made the rules; `goal_row`: where the goal is, and whether all of its row; `all_lanes`: whether all lanes may
-be used.
+`safety_gear`: airbags, seat belts, a call for help; `car_talk`: whether cars tell each other anything;
+`rule_makers`: who made the rules; `goal_row`: where the goal is, and whether all of its row; `all_lanes`:
+whether all lanes may be used.
 """
 WorldName = Literal[
     "pace",

@@ -30,7 +30,7 @@ _AT_FAULT = (Fault.EGO, Fault.SHARED, Fault.PLANNER)
 
 
 class RuleFaults:
-    """Answers to "did your rules contribute to the crash?", "was that a bug?", "who would be responsible now?"."""
+    """Answers to "did your rules contribute to the crash?", "was that a bug?", "whose fault would one be?"."""
 
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""

@@ -1,4 +1,4 @@
-"""Answers about this world beside the real one: real cars, safety in general, what a car has, who made the rules."""
+"""Answers about this world beside the real one: real cars, safety in general, who made the rules."""
 
 from __future__ import annotations
 

@@ -121,8 +121,8 @@ def policy_run(
 ) -> PolicyRun:
     """What comes of a rule from now or from a tick on, for an ego, the first by default.
 
-    `lane`: that of `TO_LANE`, from 1 at the left. A drive that has ended is driven again from its start. Raises
-    `QuestionError`: `no_such_tick`, `no_such_lane`, and `nothing_ahead` where no drive goes on.
+    `lane`: that of `TO_LANE`, from 1 at the left. A drive that has ended is driven again from its start.
+    Raises `QuestionError`: `no_such_tick`, `no_such_lane`, and `nothing_ahead` where no drive goes on.
     """
     check_ego(timeline.state, ego)
     if tick is None and timeline.state.world.ended is not None:
@@ -161,7 +161,7 @@ def policy_run(
 
 
 def move_of(policy: Policy, decision: Decision, across: int = 0) -> Move:
-    """The move that a rule makes of a planner's decision; `across`: lanes to the right to the lane it is for."""
+    """The move that a rule makes of a planner's decision; `across`: lanes from it to the right to its lane."""
     if policy is Policy.TO_LANE:
         return _towards(decision, across) if across else move_of(Policy.IN_LANE, decision)
     if policy in DEMANDED:

@@ -1,4 +1,4 @@
-"""Who was swayed by the ego, against why each mover went as it did; what made trouble, against runs without it."""
+"""Who was swayed by the ego, against why movers went as they did; what made trouble, against runs without."""
 
 from __future__ import annotations
 
