@@ -35,8 +35,8 @@ class LanesTaken:
         ask, timeline = asked.ask, asked.timeline
         if timeline.state.world.ended is not None:
             again = replace(ask, about="what_if", what=Policy.TO_LANE.value)
-            told = self._policies.answer(replace(asked, ask=again, supposes=None))
-            return told | {"about": ask.about, "question": question(self._sayings, ask), "what": ask.what}
+            answer = self._policies.answer(replace(asked, ask=again, supposes=None))
+            return answer | {"about": ask.about, "question": question(self._sayings, ask), "what": ask.what}
         try:
             decision = _next(timeline)
             found = policy_run(timeline, Policy.TO_LANE, lane=ask.lane)

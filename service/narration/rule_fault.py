@@ -30,7 +30,7 @@ _AT_FAULT = (Fault.EGO, Fault.SHARED, Fault.PLANNER)
 
 
 class RuleFaults:
-    """Answers to "did your rules contribute to the crash?", "was that a bug?", "whose fault would one be?"."""
+    """Answers to "did your rules contribute to the crash?", "was that a bug?", "whose would one be?"."""
 
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
@@ -47,7 +47,7 @@ class RuleFaults:
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, self._crashes.not_so(error))
         text = within([*self._part(found, asked), Part(1, self._method(found)), *self._others(found)])
-        facts = {"what": ask.what, "since": found.since}
+        facts: Json = {"what": ask.what, "since": found.since}
         facts |= {"kept_clear": list(found.kept_clear), "crashed_too": list(found.crashed)}
         return plain(self._sayings, ask, timeline.state, text) | facts | blame_json(found.blame)
 
@@ -108,8 +108,8 @@ class RuleFaults:
             state = running_state(timeline, None)
             free = self._free(state)
         except QuestionError as error:
-            told = not_so(self._sayings, error.code, error.facts)
-            return plain(self._sayings, ask, timeline.state, told)
+            refused = not_so(self._sayings, error.code, error.facts)
+            return plain(self._sayings, ask, timeline.state, refused)
         by_hand = state.ego().mode is Mode.MANUAL
         told = [Part(0, self._say("liable", "by_hand" if by_hand else "mine"))]
         if free:

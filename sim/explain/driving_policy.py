@@ -161,7 +161,7 @@ def policy_run(
 
 
 def move_of(policy: Policy, decision: Decision, across: int = 0) -> Move:
-    """The move that a rule makes of a planner's decision; `across`: lanes from it to the right to its lane."""
+    """The move that a rule makes of a planner's decision; `across`: how far right its lane is."""
     if policy is Policy.TO_LANE:
         return _towards(decision, across) if across else move_of(Policy.IN_LANE, decision)
     if policy in DEMANDED:

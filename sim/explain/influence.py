@@ -138,7 +138,7 @@ def _steps(timeline: Timeline) -> list[tuple[SimState, tuple[Move, ...]]]:
         raise QuestionError("nothing_yet", tick=timeline.tick)
     if stop - world.episode_start > MOST_TICKS:
         raise QuestionError("too_long", ticks=stop - world.episode_start, most=MOST_TICKS)
-    found = []
+    found: list[tuple[SimState, tuple[Move, ...]]] = []
     for before, after in pairwise(timeline.between(world.episode_start, stop + 1)):
         move = move_between(before, after)
         if move is not None and len(before.world.avs) == 1:

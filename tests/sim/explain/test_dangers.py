@@ -22,6 +22,11 @@ def begun(seed: int, ticks: int = 5, **more: object) -> Timeline:
     return timeline
 
 
+def end_of(timeline: Timeline) -> Outcome:
+    """How it stands now."""
+    return timeline.state.world.outcome
+
+
 def hit_by(timeline: Timeline, move: Move) -> tuple[int, tuple[str, ...]] | None:
     """What a person hits who asks for a move and then for straight on, where nothing is held back."""
     driven = timeline.copy()
@@ -95,7 +100,7 @@ def test_the_worst_case_is_no_better_than_what_comes(seed: int) -> None:
     for _ in range(6):
         if timeline.state.world.outcome is Outcome.RUNNING:
             timeline.advance()
-    if timeline.state.world.outcome is Outcome.CRASH:
+    if end_of(timeline) is Outcome.CRASH:
         assert longer.sure_after is not None
         assert longer.sure_after.ticks < 6 or not longer.sure_after.to_the_end or not longer.may_crash
         assert longer.by_rules.crashes > 0.0

@@ -1,4 +1,4 @@
-"""Driving to a lane: it is kept once reached, nothing leads away from it before, and the run is a real one."""
+"""Driving to a lane: it is kept once reached, nothing leads away from it before, and the run is real."""
 
 from __future__ import annotations
 
