@@ -72,11 +72,10 @@ class DangersTold:
         if each.hit_after is not None:
             return self._say("hit", seconds=in_seconds(self._sayings, each.hit_after, config))
         seconds = in_seconds(self._sayings, each.ticks, config)
-        doing, names = (self._moves(each.moves, form) for form in ("doing", "name"))
-        return self._say("met", moves=doing, names=names, seconds=seconds)
+        return self._say("met", moves=self._moves(each.moves), seconds=seconds)
 
-    def _moves(self, moves: Sequence[Move], form: str) -> str:
-        return self._sayings.joined([self._sayings.move(each, form) for each in moves])
+    def _moves(self, moves: Sequence[Move]) -> str:
+        return self._sayings.joined([self._sayings.move(each, "name") for each in moves])
 
     def _worst(self, found: WorstCase) -> str:
         """A crash or none, whatever the others do; then what comes by their rules."""
