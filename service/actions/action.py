@@ -20,7 +20,7 @@ from service.actions.parameters import MAX_PARAMETERS, PhraseParameter, figure
 from service.actions.questions import (
     COUNTED,
     HISTORY_KEYS,
-    OF_OTHERS,
+    OF_A_KIND,
     QUESTIONS,
     WHAT_KEYS,
     WHATS,
@@ -159,8 +159,12 @@ class Ask:
             raise ValueError("a question about the scene counts one thing, the nearest of a kind")
         if self.about == "history":
             self._check_counted()
-        if self.about == "outlook" and self.kind is not None and self.what not in OF_OTHERS:
-            raise ValueError("of the time ahead, other road users alone are asked of a kind of things")
+        if self.about == "outlook" and self.kind is not None and self.what not in OF_A_KIND:
+            raise ValueError(
+                "of the time ahead, other road users and what is dangerous are asked of a kind of things"
+            )
+        if self.about in ("outlook", "what_if") and (self.lane is None) is (self.what in _OF_A_LANE):
+            raise ValueError("of a lane it is asked why it is not taken, and what if it had been driven in")
         if self.about == "sight":
             self._check_sight()
         if self.about == "what_if" and (self.kind is None) is (self.what in get_args(ScaleName)):
@@ -263,6 +267,8 @@ _SUPPOSED = tuple(
     what for names in (PolicyName, SoonerName, SideName, ScaleName, SeedsName) for what in get_args(names)
 )
 """What may be supposed of a drive without a change or a move."""
+_OF_A_LANE = ("lane", "to_lane")
+"""What of the time ahead, and of what is supposed, is asked of a lane."""
 _CONDITIONS = ("kind", "want", "part", "lane", "parameter", "value", "metric")
 """Keys that narrow down what is counted over a drive."""
 

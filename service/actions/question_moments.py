@@ -19,6 +19,7 @@ from service.actions.questions import (
     SessionFactName,
     WorldFactName,
     WorldRuleName,
+    WorldTruthName,
 )
 
 Moment = Literal["decision", "state", "drive", "present", "none"]
@@ -28,11 +29,10 @@ Moment = Literal["decision", "state", "drive", "present", "none"]
 _OF_A_DECISION: Final = ("here", "compare", "own", "plan")
 """What of planners is asked of one decision; nearly all else is asked of planners in general."""
 
-_OF_THE_WORLD: Final = (
-    *get_args(WorldRuleName),
-    *get_args(WorldFactName),
-    *get_args(SessionFactName),
-    *get_args(HandFactName),
+_OF_THE_WORLD: Final = tuple(
+    what
+    for names in (WorldRuleName, WorldFactName, SessionFactName, HandFactName, WorldTruthName)
+    for what in get_args(names)
 )
 """What holds whatever is looked at; `traffic_rules` tells of the drive as well."""
 

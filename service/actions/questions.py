@@ -54,6 +54,11 @@ OutlookName = Literal[
     "next_change",
     "others",
     "crossing",
+    "gaps",
+    "danger",
+    "worst",
+    "lane",
+    "liable",
 ]
 """What of the time ahead is asked about.
 
@@ -61,15 +66,28 @@ OutlookName = Literal[
 `free`: which moves meet nothing now; `matters`: what the coming move hangs on; `risk`: how safe it is now;
 `coming`: what happens in the next ticks or seconds; `safest`: which move is; `next_stop`,
 `next_change`: when the vehicle will next stop or change lanes; `others`: where the cars and people on foot
-go, or those of a kind; `crossing`: which of them come into the lane ahead of the vehicle.
+go, or those of a kind; `crossing`: which of them come into the lane ahead of the vehicle;
+`gaps`: what the next rows of barriers leave free;
+`danger`: what is most dangerous now, of all or of a kind; `worst`: what may come at worst in some ticks;
+`lane`: why it does not take a lane, and what would come of that; `liable`: whose a crash would be now.
 """
 BlameName = Literal[
-    "fault", "too_late", "foreseen", "avoidable", "human", "first_seen", "the_other", "other_could"
+    "fault",
+    "too_late",
+    "foreseen",
+    "avoidable",
+    "human",
+    "first_seen",
+    "the_other",
+    "other_could",
+    "rules",
+    "bug",
 ]
 """What about a crash is asked.
 
 `human`: whether a person would have crashed; `first_seen`: since when what was hit was seen; `the_other`:
-where what was hit came from, and how fast; `other_could`: whether it could have kept clear.
+where what was hit came from, and how fast; `other_could`: whether it could have kept clear; `rules`: what
+part the planner's own rules had; `bug`: whether the program did other than its rules say.
 """
 PlannerFactName = Literal[
     "lookahead",
@@ -108,8 +126,8 @@ PlannersName = Literal[
 `own`: what this session's would have done where a person drove; `method`: by what it chooses; `often`: how
 often it arrives, crashes and gets stuck; `difference`: how some differ in general; `effort`: how much a
 search looks at; `parting`: where two first decide otherwise on this road; `hand_beside`: where it would be
-now, had it driven in place of a person; `plan`: what was planned at a tick; `plan_changes`: how often what was
-left of a plan was given up.
+now, had it driven in place of a person; `plan`: what was planned at a tick; `plan_changes`: how often what
+was left of a plan was given up.
 """
 HistoryName = Literal[
     "closest_call",
@@ -156,6 +174,11 @@ HistoryName = Literal[
     "luck",
     "started",
     "hand_since",
+    "stuck_cause",
+    "knowable",
+    "influence",
+    "trouble",
+    "explained",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -177,7 +200,9 @@ drive ended; `near_misses`: what came that close that it nearly met; `move_risk`
 moves, the latest by default; `average_speed`: of this drive; `way_share`: what part of the way to the goal
 is driven; `best_time`: the least time in which this road can be driven; `straight_line`: how much longer than
 straight ahead it drove; `luck`: how the same drive goes with other chances; `started`: where it
-began; `hand_since`: since when a person drives, and which of its moves were held back.
+began; `hand_since`: since when a person drives, and which of its moves were held back; `stuck_cause`: why it got stuck; `knowable`: when it could have been known that no way was left;
+`influence`: whether others braked or turned because of it; `trouble`: what its moves hung on most;
+`explained`: the last moves, each with its reason.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -323,6 +348,20 @@ HandFactName = Literal["hand_time", "hand_warning", "hand_plan", "hand_blame"]
 `hand_time`: whether time runs on without a key; `hand_warning`: whether a crash is warned of; `hand_plan`:
 what the planner does meanwhile, and whose plan is drawn; `hand_blame`: whose a crash is.
 """
+WorldTruthName = Literal[
+    "real_car",
+    "general_safety",
+    "safety_gear",
+    "car_talk",
+    "rule_makers",
+    "all_lanes",
+]
+"""What is asked of this world beside the real one, and of its road.
+
+`real_car`: what a real self-driving car would do; `general_safety`: whether such cars are safe;
+`safety_gear`: airbags, seat belts, a call for help; `car_talk`: whether cars tell each other anything;
+`rule_makers`: who made the rules; `all_lanes`: whether all lanes may be used.
+"""
 WorldName = Literal[
     "pace",
     "gap",
@@ -335,6 +374,7 @@ WorldName = Literal[
     WorldFactName,
     SessionFactName,
     HandFactName,
+    WorldTruthName,
 ]
 """What about this world and its rules is asked.
 
@@ -345,9 +385,9 @@ OtherName = Literal["why", "going"]
 """What of another road user is asked about: why it did what it did, or where it goes."""
 MomentName = Literal["detour"]
 """What moment is asked about, in place of a tick: the latest move to the side or diagonally."""
-PolicyName = Literal["straight", "stand", "in_lane", "nonstop"]
+PolicyName = Literal["straight", "stand", "in_lane", "to_lane", "nonstop"]
 """By what rule it is supposed to drive: `straight`: forward in every tick; `stand`: staying in every tick;
-`in_lane`: in one lane; `nonstop`: without staying.
+`in_lane`: in one lane; `to_lane`: in the lane that is named, from the start; `nonstop`: without staying.
 """
 SoonerName = Literal["sooner_stop", "sooner_change", "longer_wait", "unstopped"]
 """What is supposed of this drive so far: its latest stop or lane change a tick sooner, that stop a tick
@@ -449,7 +489,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "why": QuestionTraits(("move", "instead", "what", "tick", "ticks", "seconds"), runs_episodes=True),
     "why_not": QuestionTraits(("move", "what", "tick", "ticks", "seconds"), ("move",), runs_episodes=True),
     "what_if": QuestionTraits(
-        ("change", "move", "what", "kind", "tick", "ticks", "seconds", "count"), runs_episodes=True
+        ("change", "move", "what", "kind", "tick", "ticks", "seconds", "count", "lane"), runs_episodes=True
     ),
     "next": QuestionTraits(("kind",), runs_episodes=True),
     "scene": QuestionTraits(("kind", "count")),
@@ -477,7 +517,9 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
         ("what", "which", "move", "tick", "ticks", "seconds", "count"), ("what", "which"), runs_episodes=True
     ),
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
-    "outlook": QuestionTraits(("what", "move", "ticks", "seconds", "kind"), ("what",), runs_episodes=True),
+    "outlook": QuestionTraits(
+        ("what", "move", "ticks", "seconds", "kind", "lane"), ("what",), runs_episodes=True
+    ),
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
     "planners": QuestionTraits(
         ("what", "planners", "planner", "tick", "ticks"), ("what",), runs_episodes=True
@@ -492,6 +534,8 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
 
 OF_OTHERS: Final = ("others", "crossing")
 """What of the time ahead may be asked of other road users of one kind."""
+OF_A_KIND: Final = (*OF_OTHERS, "danger")
+"""What of the time ahead may be asked of things of one kind."""
 
 WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
     "why": (*get_args(MomentName), *get_args(SideName)),
@@ -526,6 +570,8 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "safest": (frozenset(),),
     "next_stop": (frozenset(),),
     "next_change": (frozenset(),),
+    **dict.fromkeys(("gaps", "danger", "lane", "liable"), (frozenset(),)),
+    "worst": (frozenset(), frozenset(("ticks",)), frozenset(("seconds",))),
     **dict.fromkeys(OF_OTHERS, (frozenset(),)),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),
@@ -572,6 +618,7 @@ COUNTED: Final[Mapping[str, frozenset[str]]] = {
     "moving": frozenset(("want", "part", "lane", "parameter", "value")),
     "lanes_used": frozenset(("want", "part", "lane", "parameter", "value")),
     "passed": frozenset(("kind",)),
+    "trouble": frozenset(("kind",)),
     "sighted": frozenset(("kind", "want")),
     "overlooked": frozenset(("kind",)),
     "closest_call": frozenset(("kind",)),
@@ -604,13 +651,14 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     **dict.fromkeys(("first_half", "second_half", "sighted", "overlooked", "lost_sight"), (frozenset(),)),
     "noticed": (frozenset(), frozenset(("tick",))),
     **dict.fromkeys(("shares", "moving", "listed", "in_the_way", "advanced"), _STRETCHES),
-    "end": (frozenset(),),
     "near_misses": _STRETCHES,
     "move_risk": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
     **dict.fromkeys(
         ("average_speed", "way_share", "best_time", "straight_line", "luck", "started", "hand_since"),
         (frozenset(),),
     ),
+    "explained": (frozenset(), frozenset(("ticks",))),
+    **dict.fromkeys(("end", "stuck_cause", "knowable", "influence", "trouble"), (frozenset(),)),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

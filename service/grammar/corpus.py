@@ -186,7 +186,9 @@ def _questions() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "what_if", "change": [{"do": "add", "kind": "pothole", "count": 5}]}
     yield {"do": "ask", "about": "what_if", "change": [{"do": "drive", "move": "stay"}], "count": 5}
     for names in (PolicyName, SoonerName, SideName, SeedsName):
-        yield from ({"do": "ask", "about": "what_if", "what": what} for what in get_args(names))
+        whats = (what for what in get_args(names) if what != "to_lane")
+        yield from ({"do": "ask", "about": "what_if", "what": what} for what in whats)
+    yield {"do": "ask", "about": "what_if", "what": "to_lane", "lane": 3}
     for what, kind in product(get_args(ScaleName), PLACEABLE):
         yield {"do": "ask", "about": "what_if", "what": what, "kind": kind}
     yield {"do": "ask", "about": "why", "what": "other_side"}
@@ -224,9 +226,12 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "history", "what": what}
     for what in ("stopped", "lanes_used", "tight", "first_half", "second_half"):
         yield {"do": "ask", "about": "history", "what": what}
-    for what in ("passed", "stopped", "closest_call"):
+    for what in ("passed", "stopped", "closest_call", "trouble"):
         yield {"do": "ask", "about": "history", "what": what, "kind": "pedestrian"}
     for what in ("sighted", "overlooked", "lost_sight", "noticed", "shares", "listed", "advanced", "end"):
+        yield {"do": "ask", "about": "history", "what": what}
+    yield {"do": "ask", "about": "history", "what": "explained", "ticks": 5}
+    for what in ("stuck_cause", "knowable", "influence", "trouble", "explained"):
         yield {"do": "ask", "about": "history", "what": what}
     for want in ("first", "last", "share"):
         yield {"do": "ask", "about": "history", "what": "sighted", "want": want}
@@ -286,13 +291,17 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "outlook", "what": "safe", "move": move}
     for about in ("outlook", "blame", "planners", "sight", "world"):
         for what in WHATS[about]:
-            if what not in ("safe", "coming", "difference", "detection", "parting"):
+            if what not in ("safe", "coming", "difference", "detection", "parting", "lane"):
                 yield {"do": "ask", "about": about, "what": what}
     yield {"do": "ask", "about": "sight", "what": "detection", "kind": "pedestrian"}
     yield {"do": "ask", "about": "sight", "what": "belief", "kind": "pothole"}
     yield {"do": "ask", "about": "sight", "what": "sensor_fault", "value": "radar"}
     yield {"do": "ask", "about": "outlook", "what": "others", "kind": "vehicle"}
     yield {"do": "ask", "about": "outlook", "what": "crossing", "kind": "pedestrian"}
+    yield {"do": "ask", "about": "outlook", "what": "danger", "kind": "vehicle"}
+    yield {"do": "ask", "about": "outlook", "what": "lane", "lane": 3}
+    yield {"do": "ask", "about": "outlook", "what": "worst", "ticks": 3}
+    yield {"do": "ask", "about": "outlook", "what": "worst", "seconds": 2.5}
     yield {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3}
     yield {"do": "ask", "about": "outlook", "what": "coming", "seconds": 2.5}
     for what in (*WHATS["blame"], "own"):

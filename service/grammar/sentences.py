@@ -259,7 +259,7 @@ class Sentences(RuleSentences):
                 if ask.tick is not None:
                     raise Unsayable("a way of driving from a tick on")
                 things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
-                return self._say(f"{ask.about}_{ask.what}", move=move, things=things)
+                return self._say(f"{ask.about}_{ask.what}", move=move, things=things, lane=ask.lane)
             case "why" | "why_not":
                 key: str = ask.about
                 if ask.move is not None and ask.about == "why":
@@ -417,6 +417,7 @@ class Sentences(RuleSentences):
             thing=thing,
             things=things,
             sensor=sensor,
+            lane=ask.lane,
         )
 
     def _evaluation_talk(self, action: EvaluationTalk) -> str:

@@ -15,11 +15,13 @@ from service.actions.questions import (
     SessionFactName,
     WorldFactName,
     WorldRuleName,
+    WorldTruthName,
 )
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain
 from service.narration.asked_moment import at_its_moment
+from service.narration.barred_rows import BarredRowsTold
 from service.narration.belief_checked import BeliefChecked
 from service.narration.believed import NearestBelieved
 from service.narration.blame import Blames
@@ -30,6 +32,7 @@ from service.narration.close_calls import CloseCalls
 from service.narration.coming_turn import ComingTurns
 from service.narration.confidence import Confidences
 from service.narration.course import Courses
+from service.narration.dangers import DangersTold
 from service.narration.details import Details
 from service.narration.device_facts import DeviceFacts
 from service.narration.drive_counts import DriveCounts
@@ -42,11 +45,15 @@ from service.narration.hand_facts import HandFacts
 from service.narration.history import History
 from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
+from service.narration.influence import Influences
+from service.narration.lane_taken import LanesTaken
 from service.narration.log_lines import Line, LogLines
+from service.narration.lost_way import LostWays
 from service.narration.luck import Lucks
 from service.narration.maintenance import Maintenance
 from service.narration.metrics import Figures
 from service.narration.moments import Moments, Patterns
+from service.narration.move_reasons import MoveReasons
 from service.narration.necessity import Necessities
 from service.narration.next import Next
 from service.narration.other_seeds import OtherSeeds
@@ -59,6 +66,7 @@ from service.narration.planner_parting import PlannerPartings
 from service.narration.planners import Planners
 from service.narration.quiz.answer import Quizzes
 from service.narration.ranking import Rankings
+from service.narration.rule_fault import RuleFaults
 from service.narration.rules import RulesTold
 from service.narration.sayings import Sayings
 from service.narration.scene import Scenes
@@ -81,6 +89,7 @@ from service.narration.why import Whys
 from service.narration.world import Worlds
 from service.narration.world_facts import WorldFacts
 from service.narration.world_rules import WorldRules
+from service.narration.world_truths import WorldTruths
 from service.sessions.facts import Advised, Answerable, Asked
 from sim.actions import Drive, SetCount
 from sim.explain import QuestionError
@@ -98,6 +107,7 @@ FACTS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldFactName)
 FACTS_OF_DRIVING_BY_HAND: Final[tuple[str, ...]] = get_args(HandFactName)
 FACTS_OF_DEVICES: Final[tuple[str, ...]] = get_args(DeviceFactName)
 FACTS_OF_THE_SESSION: Final = tuple(what for what in get_args(SessionFactName) if what != "log_line")
+TRUTHS_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldTruthName)
 FACTS_OF_PLANNERS: Final[tuple[str, ...]] = get_args(PlannerFactName)
 
 
@@ -132,7 +142,14 @@ class Answers:
             DriveEnds(sayings): ("end",),
             CloseCalls(sayings): ("near_misses", "move_risk"),
             DriveFigures(sayings): ("average_speed", "way_share", "best_time", "straight_line", "started"),
+            LostWays(sayings): ("stuck_cause", "knowable"),
+            Influences(sayings): ("influence", "trouble"),
+            MoveReasons(sayings): ("explained",),
+            RuleFaults(sayings): ("rules", "bug", "liable"),
             AllOthers(sayings): OF_OTHERS,
+            BarredRowsTold(sayings): ("gaps",),
+            LanesTaken(sayings): ("lane",),
+            DangersTold(sayings): ("danger", "worst"),
             HitMoversTold(sayings): ("the_other", "other_could"),
             PastSightings(sayings): ("sighted", "overlooked", "lost_sight", "noticed"),
             Necessities(sayings): ("needed",),
@@ -140,6 +157,7 @@ class Answers:
             SensingCompared(sayings): ("care", "weathers", "sensors"),
             WorldRules(sayings): RULES_OF_THE_WORLD,
             WorldFacts(sayings): FACTS_OF_THE_WORLD,
+            WorldTruths(sayings): TRUTHS_OF_THE_WORLD,
             PlannerFacts(sayings): FACTS_OF_PLANNERS,
             SensingFacts(sayings): ("memory", "unseen", "detection", "combining"),
             PlannerDifferences(sayings): ("difference",),

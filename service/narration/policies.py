@@ -26,18 +26,22 @@ class Policies:
         """What comes of the rule from now or from a tick on, and what comes as it is."""
         ask, timeline = asked.ask, asked.timeline
         try:
-            found = policy_run(timeline, Policy(str(ask.what)), ask.tick)
+            tick = ask.tick
+            if ask.lane is not None and tick is None:  # "what if you had driven in lane 3": from the start
+                tick = timeline.state.world.episode_start
+            found = policy_run(timeline, Policy(str(ask.what)), tick, lane=ask.lane)
         except QuestionError as error:
             return plain(self._sayings, ask, timeline.state, not_so(self._sayings, error.code, error.facts))
         parts = [
             Part(0, self._agreed(found, asked)),
             Part(1, self._moment(found, asked)),
             Part(0, self._told(found)),
+            Part(1, self._lane(found)),
             Part(0, self._by_hand(found)),
             Part(1, self._as_it_is(found)),
             Part(2, "" if ask.tick is None else self._since(found, ask.tick)),
         ]
-        return plain(self._sayings, ask, found.state, within(parts)) | {"policy": _json(found)}
+        return plain(self._sayings, ask, found.state, within(parts)) | {"policy": policy_json(found)}
 
     def _agreed(self, found: PolicyRun, asked: Asked) -> str:
         """Yes or no, where that was asked, does not hang on chance, and is so by hand as well."""
@@ -53,13 +57,19 @@ class Policies:
         tick = found.state.world.tick
         if asked.ask.tick is not None:
             return self._sayings.say("whatif", "from_tick", tick=tick)
-        if asked.timeline.state.world.ended is not None:
+        if asked.timeline.state.world.ended is not None or asked.ask.lane is not None:
             return self._sayings.say("whatif", "driven_again", "start", tick=tick)
         return ""
 
+    def _lane(self, found: PolicyRun) -> str:
+        """When it comes to the lane that it is driven to, and for how long it is in it."""
+        if found.lane is None:
+            return ""
+        return lane_told(self._sayings, found)
+
     def _told(self, found: PolicyRun) -> str:
         """How it ends, with its chance where that is left to chance."""
-        supposed = self._say("supposed", found.policy)
+        supposed = self._say("supposed", found.policy, lane=found.lane)
         if found.as_it_is:
             return self._say("anyway", supposed=supposed, end=end_told(self._sayings, found.real))
         if found.chances is not None and found.by_chance:
@@ -96,7 +106,19 @@ class Policies:
         return self._sayings.say("whatif", "policy", *keys, **parts)
 
 
-def _json(found: PolicyRun) -> Json:
+def lane_told(sayings: Sayings, found: PolicyRun) -> str:
+    """When a run to a lane comes to it, and for how long it is in it."""
+    config = found.state.config
+    if found.lane_after is None:
+        return sayings.say("whatif", "policy", "lane", "never", lane=found.lane)
+    after = in_seconds(sayings, found.lane_after, config)
+    seconds = in_seconds(sayings, found.ticks_in_lane, config)
+    key = "reached" if found.lane_after else "there"
+    return sayings.say("whatif", "policy", "lane", key, lane=found.lane, after=after, seconds=seconds)
+
+
+def policy_json(found: PolicyRun) -> Json:
+    """The run as JSON values."""
     return {
         "name": found.policy,
         "from_tick": found.state.world.tick,
@@ -109,4 +131,7 @@ def _json(found: PolicyRun) -> Json:
         "futures": None if found.chances is None else found.chances.futures,
         "by_hand": None if found.by_hand is None else found.by_hand.outcome,
         "as_it_is": foresight_json(found.real),
+        "lane": found.lane,
+        "lane_after": found.lane_after,
+        "ticks_in_lane": found.ticks_in_lane,
     }

@@ -21,7 +21,8 @@ LANES: Final = "lanes"
 SIDES: Final = "sides"
 """Before the side on which more is supposed, or `both`."""
 ROW: Final = "row"
-"""Before what is asked of one row ahead: what is in the `next`, a `gap` in it, or what is `beyond` it."""
+"""Before what is asked of one row ahead: what is in the `next`, a `gap` in it, what is `beyond` it, or where
+things are `at`."""
 WITHIN: Final = "within"
 """Before a number of rows."""
 
@@ -73,5 +74,5 @@ class SceneAsked:
 
     @property
     def row(self) -> str | None:
-        """`next` for the row right ahead, `gap` or `beyond` of the nearest row of a kind; else None."""
+        """`next`: the row right ahead; `gap`, `beyond`: the nearest of a kind; `at`: its number; or None."""
         return self.words[1] if self.words[:1] == (ROW,) else None

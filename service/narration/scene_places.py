@@ -26,6 +26,8 @@ _SIDES: Final[Mapping[str, Holds]] = {
 }
 _MOST_NEAREST: Final = 3
 """Of the nearest, where several are asked for."""
+_MOST_ROWS: Final = 5
+"""Rows that are named where things of a kind stand."""
 
 
 class ScenePlaces:
@@ -201,6 +203,8 @@ class ScenePlaces:
             )
             there = replace(self._scene, seen=tuple(things))
             return there, self._listed(things, kind, wanted, self._say("in_next_row"))
+        if asked == "at":
+            return self._rows_at(kind, noun)
         row = self._row_of(kind, ahead)
         if row is None:
             return replace(self._scene, seen=()), self._say("row_none", things=noun)
@@ -213,6 +217,23 @@ class ScenePlaces:
             yes, no = (self._told.answer(word) for word in ("agree", "disagree"))
             return there, self._say(key, yes=yes, no=no, things=noun, metres=metres, listed=listed)
         return self._gaps([thing for thing in ahead if thing.rows == row], kind, metres)
+
+    def _rows_at(self, kind: Kind | None, noun: str) -> tuple[Scene, str]:
+        """Lane and row of the nearest of a kind, and the other rows ahead that hold some."""
+        things = sorted(self._scene.of(kind), key=distance)
+        there = replace(self._scene, seen=tuple(things))
+        if not things:
+            return there, self._say("none", things=noun)
+        first = things[0]
+        own = self._scene.cell[1]
+        lane, row = self._own + first.lanes, own - first.rows
+        told = [Part(0, self._say("row_at", thing=self._told.near_ones([first]), lane=lane, row=row))]
+        rows = sorted({own - each.rows for each in things if each.rows > 0} - {row}, reverse=True)
+        if rows:
+            some = [str(each) for each in rows[:_MOST_ROWS]]
+            more = [self._say("more", count=len(rows) - _MOST_ROWS)] if len(rows) > _MOST_ROWS else []
+            told.append(Part(1, self._say("rows_at", rows=self._told.joined([*some, *more]), things=noun)))
+        return there, within(told)
 
     def _row_of(self, kind: Kind | None, ahead: Sequence[Detection]) -> int | None:
         """Rows to the nearest one ahead with two things of a kind or more, else with one; None without."""

@@ -1,4 +1,4 @@
-"""What comes of driving by a simple rule: straight on, in one lane, without stops, standing.
+"""What comes of driving by a simple rule: straight on, in one lane, to a lane, without stops, standing.
 
 Every tick is run. A move that the rule demands is made whatever it meets; where the rule only forbids moves
 the planner decides, and the next best of its options is taken instead of one that is forbidden. Where it is
@@ -41,6 +41,8 @@ class Policy(StrEnum):
     """staying in every tick"""
     IN_LANE = "in_lane"
     """the planner's moves, without those that leave the lane"""
+    TO_LANE = "to_lane"
+    """towards a lane wherever a move that way is free, and then without leaving it"""
     NONSTOP = "nonstop"
     """the planner's moves, without staying"""
 
@@ -81,6 +83,12 @@ class PolicyRun:
     only where the run crashes and nothing is left to chance"""
     said_since: int
     """how many actions said after the moment are left out"""
+    lane: int | None = None
+    """the lane of `TO_LANE`, from 1 at the left"""
+    lane_after: int | None = None
+    """after how many ticks it is first in that lane; None where it never is"""
+    ticks_in_lane: int = 0
+    """decisions that were taken in that lane"""
 
     @property
     def by_chance(self) -> bool:
@@ -104,12 +112,17 @@ class PolicyRun:
 
 
 def policy_run(
-    timeline: Timeline, policy: Policy, tick: int | None = None, *, ego: str | None = None
+    timeline: Timeline,
+    policy: Policy,
+    tick: int | None = None,
+    *,
+    lane: int | None = None,
+    ego: str | None = None,
 ) -> PolicyRun:
     """What comes of a rule from now or from a tick on, for an ego, the first by default.
 
-    A drive that has ended is driven again from its start. Raises `QuestionError`: `no_such_tick`, and
-    `nothing_ahead` where no drive goes on.
+    `lane`: that of `TO_LANE`, from 1 at the left. A drive that has ended is driven again from its start.
+    Raises `QuestionError`: `no_such_tick`, `no_such_lane`, and `nothing_ahead` where no drive goes on.
     """
     check_ego(timeline.state, ego)
     if tick is None and timeline.state.world.ended is not None:
@@ -117,8 +130,11 @@ def policy_run(
     start = state_at(timeline, tick)
     if start.world.outcome is not Outcome.RUNNING:
         raise QuestionError("nothing_ahead", outcome=start.world.outcome, tick=start.world.tick)
+    columns = start.world.road.columns
+    if policy is Policy.TO_LANE and not 1 <= (lane or 0) <= columns:
+        raise QuestionError("no_such_lane", lane=lane, columns=columns)
     state = driving(start, ego)
-    path, last = _driven(state, policy, ego)
+    path, last, columns_driven = _driven(state, policy, ego, lane)
     world, number = last.world, state.number(ego)
     cells = state.world.avs[number] // world.road.columns - world.avs[number] // world.road.columns
     demanded = DEMANDED.get(policy)
@@ -134,15 +150,20 @@ def policy_run(
         world.outcome,
         world.cause,
         cells,
-        _chances(state, policy, ego),
+        _chances(state, policy, ego, lane),
         foresee(state, ego),
         by_hand,
         since,
+        lane,
+        next((at for at, column in enumerate(columns_driven) if column + 1 == lane), None),
+        sum(column + 1 == lane for column in columns_driven[: len(path)]),
     )
 
 
-def move_of(policy: Policy, decision: Decision) -> Move:
-    """The move that a rule makes of a planner's decision."""
+def move_of(policy: Policy, decision: Decision, across: int = 0) -> Move:
+    """The move that a rule makes of a planner's decision; `across`: how far right its lane is."""
+    if policy is Policy.TO_LANE:
+        return _towards(decision, across) if across else move_of(Policy.IN_LANE, decision)
     if policy in DEMANDED:
         return DEMANDED[policy]
     forbidden = FORBIDDEN[policy]
@@ -157,23 +178,51 @@ def move_of(policy: Policy, decision: Decision) -> Move:
     return (leading_on or free)[0].move if free else LAST_RESORT[policy]
 
 
-def _driven(state: SimState, policy: Policy, ego: str | None) -> tuple[tuple[Move, ...], SimState]:
-    """The moves of one run to the end of the episode, and the state that it ends in."""
+def _towards(decision: Decision, across: int) -> Move:
+    """A free move to that side, ahead if it can be; else the planner's, unless that leads away."""
+    side = 1 if across > 0 else -1
+    ways = [
+        each
+        for each in decision.options
+        if each.move.offset[0] == side and each.cell is not None and not each.reason.blocks
+    ]
+    leading_on = [each for each in ways if each.cost is not None]
+    if ways:
+        return min(leading_on or ways, key=lambda each: not each.move.offset[1]).move
+    away = decision.move.offset[0] == -side
+    return move_of(Policy.IN_LANE, decision) if away else decision.move
+
+
+def _across(state: SimState, lane: int | None, ego: str | None) -> int:
+    """How many lanes to the right of an ego a lane is."""
+    column = state.world.avs[state.number(ego)] % state.world.road.columns
+    return 0 if lane is None else lane - 1 - column
+
+
+def _driven(
+    state: SimState, policy: Policy, ego: str | None, lane: int | None
+) -> tuple[tuple[Move, ...], SimState, list[int]]:
+    """The moves of one run to the end of the episode, the state that it ends in, and its columns."""
     path: list[Move] = []
+    columns: list[int] = []
     work = faults = 0
     searches = traits_of(state.config_of(ego).planner).plans_to_goal and policy not in DEMANDED
     while state.world.outcome is Outcome.RUNNING:
-        tick, move, fault = _tick(state, policy, ego)
+        columns.append(state.world.avs[state.number(ego)] % state.world.road.columns)
+        tick, move, fault = _tick(state, policy, ego, lane)
         faults = 0 if fault is None else faults + 1
         work += work_of_tick(state.world.road) if searches else 0
         if faults == MAX_FAULTS or work > MAX_WORK:
             break
         path.append(move)
         state = tick.state
-    return tuple(path), state
+    columns.append(state.world.avs[state.number(ego)] % state.world.road.columns)
+    return tuple(path), state, columns
 
 
-def _tick(state: SimState, policy: Policy, ego: str | None) -> tuple[StepResult, Move, str | None]:
+def _tick(
+    state: SimState, policy: Policy, ego: str | None, lane: int | None
+) -> tuple[StepResult, Move, str | None]:
     """One tick by a rule, its move, and what the planner did instead of answering."""
     if state.world.avs[state.number(ego)] < state.world.road.columns:  # it has arrived, and waits for others
         return step(state), Move.STAY, None
@@ -183,7 +232,7 @@ def _tick(state: SimState, policy: Policy, ego: str | None) -> tuple[StepResult,
     decision = decided(tick, ego)
     if decision is None:
         return tick, Move.STAY, None
-    move = move_of(policy, decision)
+    move = move_of(policy, decision, _across(state, lane, ego))
     if move is not decision.move:
         tick = replace(_made(state, move, ego), steps=tick.steps)
     return tick, move, decision.fault
@@ -195,13 +244,13 @@ def _made(state: SimState, move: Move, ego: str | None) -> StepResult:
     return replace(tick, state=tick.state.with_ego(ego, queue=(), watch=NOTHING_KEPT))
 
 
-def _chances(state: SimState, policy: Policy, ego: str | None) -> Chances | None:
+def _chances(state: SimState, policy: Policy, ego: str | None, lane: int | None) -> Chances | None:
     """How likely each end is; None where nothing is left to chance, or a planner does not answer."""
     if state.config.certain:
         return None
     most = MOST_TICKS if policy in DEMANDED else traits_of(state.config_of(ego).planner).decisions_per_answer
     futures = _PolicyFutures(state, ego or FIRST, most=most)
-    futures.policy = policy
+    futures.policy, futures.lane = policy, lane
     try:
         ends: Ends | None = futures.walked()
         drawn = None
@@ -217,6 +266,7 @@ class _PolicyFutures(Futures):
     """The futures of a moment from which on it is driven by a rule."""
 
     policy: Policy
+    lane: int | None
 
     def _end(self, node: Node, within: int | None = None) -> End | None:
         # That no way leads to the goal ends nothing here: the rule may still lead into something.
@@ -229,7 +279,10 @@ class _PolicyFutures(Futures):
             return tick, tick.state.belief
         tick, belief = super()._taken(state, config)
         decision = decided(tick, self.ego)
-        if decision is None or (move := move_of(self.policy, decision)) is decision.move:
+        if decision is None:
+            return tick, belief
+        move = move_of(self.policy, decision, _across(state, self.lane, self.ego))
+        if move is decision.move:
             return tick, belief
         made = _made(replace(state, config=config), move, self.ego)
         return replace(made, steps=tick.steps), belief

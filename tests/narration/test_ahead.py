@@ -59,11 +59,12 @@ def asks() -> list[Ask]:
         found += [
             Ask(about=about, what=what)  # type: ignore[arg-type]
             for what in WHATS[about]
-            if what not in ("safe", "coming", "difference", "detection", "parting")
+            if what not in ("safe", "coming", "difference", "detection", "parting", "lane")
         ]
     found += [Ask(about="planners", what="difference", planners=("astar", "bfs"))]
     found += [Ask(about="planners", what="parting", planners=("astar", "bfs"))]
     found += [Ask(about="sight", what="detection", kind="pedestrian")]
+    found += [Ask(about="outlook", what="lane", lane=2)]
     found += [Ask(about="outlook", what="coming", ticks=ticks) for ticks in (1, 7)]
     found += [Ask(about="history", what=what) for what in LOOKING_BACK]  # type: ignore[arg-type]
     return [*found, Ask(about="planners", what="here", planners=("astar", "dwa"))]

@@ -51,7 +51,7 @@ def test_it_comes_to_what_a_person_asking_for_the_moves_comes_to(policy: Policy,
         if timeline.state.world.outcome is not Outcome.RUNNING:
             continue
         before = timeline.state
-        found = policy_run(timeline, policy)
+        found = policy_run(timeline, policy, lane=2 if policy is Policy.TO_LANE else None)
         fork = by_hand(timeline, found.path)
         assert timeline.state is before
         ends.add(found.outcome)
