@@ -200,7 +200,8 @@ drive ended; `near_misses`: what came that close that it nearly met; `move_risk`
 moves, the latest by default; `average_speed`: of this drive; `way_share`: what part of the way to the goal
 is driven; `best_time`: the least time in which this road can be driven; `straight_line`: how much longer than
 straight ahead it drove; `luck`: how the same drive goes with other chances; `started`: where it
-began; `hand_since`: since when a person drives, and which of its moves were held back; `stuck_cause`: why it got stuck; `knowable`: when it could have been known that no way was left;
+began; `hand_since`: since when a person drives, and which of its moves were held back; `stuck_cause`: why it
+got stuck; `knowable`: when it could have been known that no way was left;
 `influence`: whether others braked or turned because of it; `trouble`: what its moves hung on most;
 `explained`: the last moves, each with its reason.
 """

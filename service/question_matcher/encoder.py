@@ -149,7 +149,7 @@ def write(
 
 
 def _gelu(values: Floats) -> Floats:
-    """The Gaussian error linear unit; the error function is formula 7.1.26 of Abramowitz and Stegun (1964)."""
+    """The Gaussian error linear unit; the error function by 7.1.26 of Abramowitz and Stegun (1964)."""
     at = np.abs(values) * np.float32(0.5**0.5)
     part = 1 / (1 + np.float32(0.3275911) * at)
     sum_ = (

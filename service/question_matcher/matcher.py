@@ -2,8 +2,8 @@
 
 The kind of the question is found by two classifiers, of its words and of their order (`KindScores`); its
 slots are found by the lexicon. A match is a sentence of the grammar, which parses it: nothing but a question
-about the session can come of it, and the answer says as what it was read. A match is unsure where two kinds are
-near each other, or where a word occurs in no example.
+about the session can come of it, and the answer says as what it was read. A match is unsure where two kinds
+are near each other, or where a word occurs in no example.
 """
 
 from __future__ import annotations

@@ -111,7 +111,7 @@ class SlotWords:
         return any(edge.concept == "dir" and str(edge.sense.value) in aside for edge in lattice.all())
 
     def says_something(self, question: Question) -> bool:
-        """Whether a question has a word of its own, beside slots and what stands between them, and is no stump."""
+        """Whether a question has a word of its own, beside slots and openers, and is no stump."""
         own = [word for word in question.words if word[0] != "<" and word not in self._data["openers"]]
         return bool(own) and (len(question.words) >= MIN_WORDS or len(own) > 1 or bool(question.binding))
 

@@ -1,7 +1,7 @@
 """Splits a question into word pieces, the way the encoder's table of pieces is made (WordPiece).
 
-Source: Wu et al. 2016, "Google's neural machine translation system"; the rules for case, accents and marks are
-those of uncased BERT (Devlin et al. 2019).
+Source: Wu et al. 2016, "Google's neural machine translation system"; the rules for case, accents and marks
+are those of uncased BERT (Devlin et al. 2019).
 """
 
 from __future__ import annotations

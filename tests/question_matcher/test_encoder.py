@@ -55,7 +55,8 @@ def small(path: Path) -> dict[str, np.ndarray]:
     def table(rows: int, columns: int) -> np.ndarray:
         return draw.normal(0, 0.5, (rows, columns)).astype(np.float32)
 
-    matrices = {"pieces.table": table(len(PIECES), WIDTH), "places": table(16, WIDTH), "kinds": table(3, WIDTH)}
+    matrices = {"pieces.table": table(len(PIECES), WIDTH), "places": table(16, WIDTH)}
+    matrices["kinds"] = table(len(KINDS), WIDTH)
     for layer in range(2):
         for part in ("query", "key", "value", "mixed"):
             matrices[f"{layer}.{part}"] = table(WIDTH, WIDTH)
@@ -79,9 +80,8 @@ def twin(numbers: dict[str, np.ndarray], rows: list[int]) -> list[float]:
 
     def linear(name: str, vector: list[float]) -> list[float]:
         table, shift = numbers[name], numbers[f"{name}.bias"]
-        return [
-            sum(w * v for w, v in zip(row, vector, strict=True)) + b for row, b in zip(table, shift, strict=True)
-        ]
+        sums = (sum(w * v for w, v in zip(row, vector, strict=True)) for row in table)
+        return plus(list(sums), shift.tolist())
 
     def norm(name: str, vector: list[float]) -> list[float]:
         mean = sum(vector) / len(vector)
@@ -92,6 +92,9 @@ def twin(numbers: dict[str, np.ndarray], rows: list[int]) -> list[float]:
     def softmax(vector: list[float]) -> list[float]:
         powers = [math.exp(v - max(vector)) for v in vector]
         return [p / sum(powers) for p in powers]
+
+    def gelu(value: float) -> float:
+        return value * (1 + math.erf(value / math.sqrt(2))) / 2
 
     def plus(a: list[float], b: list[float]) -> list[float]:
         return [x + y for x, y in zip(a, b, strict=True)]
@@ -113,11 +116,12 @@ def twin(numbers: dict[str, np.ndarray], rows: list[int]) -> list[float]:
                 weights = softmax(
                     [sum(q * k for q, k in zip(asked, key[head], strict=True)) / math.sqrt(2) for key in keys]
                 )
-                mixed += [
-                    sum(w * value[start + i] for w, value in zip(weights, values, strict=True)) for i in range(2)
-                ]
+                mixed.extend(
+                    sum(w * value[i] for w, value in zip(weights, values, strict=True))
+                    for i in (start, start + 1)
+                )
             after.append(norm(f"{layer}.attended", plus(h, linear(f"{layer}.mixed", mixed))))
-        wide = [[v * (1 + math.erf(v / math.sqrt(2))) / 2 for v in linear(f"{layer}.widen", h)] for h in after]
+        wide = [[gelu(v) for v in linear(f"{layer}.widen", h)] for h in after]
         hidden = [
             norm(f"{layer}", plus(h, linear(f"{layer}.narrow", w))) for h, w in zip(after, wide, strict=True)
         ]
