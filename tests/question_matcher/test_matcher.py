@@ -18,7 +18,7 @@ from service.question_matcher.slots import SlotWords
 from service.question_matcher.weights import FILE, Weights
 from service.resources import prompts_folder
 from service.yaml_files import read_yaml
-from tools.train_question_matcher import sources_of
+from tools.question_examples import sources_of
 
 FOLDER = prompts_folder() / "questions" / "en"
 LANGUAGES = ("en", "de")
@@ -31,6 +31,7 @@ SLOTS = {
     "planner_too": "A*",
     "sensor": "Lidar",
     "term": "regret",
+    "lane": "3",
 }
 THINGS = {
     "en": {
