@@ -16,6 +16,7 @@ from service.grammar.composition import asks
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.references import REFERS
 
+WHAT_IF = "what_if"
 ONE = "one"
 """Value of words that stand for one thing."""
 
@@ -41,10 +42,14 @@ def named_before(lattice: Lattice, divided: Divided) -> tuple[Edge, Edge] | None
 
 
 def asked_of_it(lattice: Lattice, clauses: Sequence[Clause]) -> tuple[Edge, Edge] | None:
-    """The same for a question that is understood by itself: "set courtesy to 0.3, what does it do?"."""
+    """The same for a question that is understood by itself: "set courtesy to 0.3, what does it do?".
+
+    What is supposed names itself: in "what is radar? If it were day, …" the word stands for nothing.
+    """
     for before, clause in pairwise(clauses):
-        found = _named_in(lattice, before, clause.start, clause.end) if asks(clause.actions) else None
-        if found is not None:
+        if not asks(clause.actions) or any(action.get("about") == WHAT_IF for action in clause.actions):
+            continue
+        if (found := _named_in(lattice, before, clause.start, clause.end)) is not None:
             return found
     return None
 

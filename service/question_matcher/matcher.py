@@ -31,8 +31,9 @@ NEAR = 1.5
 LEAST_SURE = 2.25
 """Least lead of what is answered at once, whatever cross-validation says of less.
 
-Of 300 questions that somebody wrote without sight of the examples, those with a lead of 2.25 or more were read
-rightly 91 times in 100, those with 1.6 to 2.25 12 times in 22; held-out examples are too like the others to tell.
+Of 300 questions that somebody wrote without sight of the examples, those with a lead of 2.25 or more were
+read rightly 91 times in 100, those with 2 to 2.25 7 times in 12; held-out examples are too like the others to
+tell.
 """
 LIKELY = 0.3
 """Least lead over what has no answer, for it to be asked about."""
