@@ -162,6 +162,8 @@ def test_politeness_and_marks_change_nothing(german: Language, polite: str) -> N
             continue
         if say.startswith(("Moment", "Mach daraus", "warte")):  # after a comma it takes back what was said
             continue
+        if say.startswith("Auto,"):  # who is spoken to stands first
+            continue
         if "chat" in str(meaning(german, say)):  # "hallo, bitte" says less than a greeting
             continue
         assert meaning(german, polite.format(say)) == meaning(german, say), say
