@@ -237,8 +237,7 @@ async def test_a_phrase_inside_another_request_is_refused_whole(talk: Talk, text
 
 async def test_a_question_that_holds_a_phrase_does_not_do_it(talk: Talk) -> None:
     await talk.say("when I say rush hour, I mean add two cars")
-    problem = await talk.refused("is it rush hour?", "ambiguous")
-    assert all(action["do"] == "ask" for choice in problem["choices"] for action in choice["actions"])
+    await talk.refused("is it rush hour?")
 
 
 async def test_a_phrase_is_done_several_times_at_once(talk: Talk) -> None:
