@@ -73,7 +73,7 @@ class Languages:
         """Make what the first refusals and follow-ups need, so that nobody waits. For any thread."""
         for code, language in self._by_code.items():
             if (matcher := self.matcher(code)) is not None:
-                matcher.match("what made you stop?")
+                matcher.prepare()
             if isinstance(language, Grammar):
                 language.suggestions.nearest("", ())
                 for table in ("joiners", "typos"):  # made when they are first read

@@ -43,16 +43,16 @@ class LanesTaken:
         except QuestionError as error:
             told = not_so(self._sayings, error.code, error.facts)
             return plain(self._sayings, ask, timeline.state, told)
+        by_hand = timeline.state.mode is Mode.MANUAL
         text = within(
             [
+                Part(0, self._sayings.say("ahead", "by_hand") if by_hand else ""),
                 Part(0, self._now(found, decision)),
                 Part(0, self._then(found)),
                 Part(1, lane_told(self._sayings, found) if found.lane_after != 0 else ""),
                 Part(1, self._as_it_is(found)),
             ]
         )
-        if timeline.state.mode is Mode.MANUAL:
-            text = f"{self._sayings.say('ahead', 'by_hand')} {text}"
         facts = {"what": ask.what, "policy": policy_json(found)}
         return plain(self._sayings, ask, timeline.state, text) | facts
 

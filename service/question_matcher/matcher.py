@@ -69,6 +69,11 @@ class QuestionMatcher:
         self._language = language
         self._folder = folder
 
+    def prepare(self) -> None:
+        """Read all files, so that no question waits for that."""
+        for table in ("_words", "_kinds", "_scores", "_follow_ups", "_fillers"):  # made when they are first read
+            getattr(self, table)
+
     @cached_property
     def _words(self) -> SlotWords:
         return SlotWords(self._language, self._folder)
