@@ -71,7 +71,13 @@ class QuestionMatcher:
 
     def prepare(self) -> None:
         """Read all files, so that no question waits for that."""
-        for table in ("_words", "_kinds", "_scores", "_follow_ups", "_fillers"):  # made when they are first read
+        for table in (
+            "_words",
+            "_kinds",
+            "_scores",
+            "_follow_ups",
+            "_fillers",
+        ):  # made when they are first read
             getattr(self, table)
 
     @cached_property
