@@ -135,7 +135,7 @@ def hasty(text: str, draw: random.Random) -> str:
 def batches(examples: Sequence[Example], draw: random.Random) -> list[Sequence[Example]]:
     """The examples in batches of like length, in a random order."""
     shuffled = draw.sample(examples, len(examples))
-    found = []
+    found: list[Sequence[Example]] = []
     for start in range(0, len(shuffled), SORTED):
         part = sorted(shuffled[start : start + SORTED], key=lambda each: len(each[0]))
         found += [part[at : at + BATCH] for at in range(0, len(part), BATCH)]
