@@ -24,6 +24,7 @@ from service.actions.evaluation import (
     ScenarioParts,
     Varied,
 )
+from service.actions.facts import FactName
 from service.actions.goals import Goal, Style
 from service.actions.questions import (
     QUESTIONS,
@@ -97,6 +98,7 @@ __all__ = [
     "Style",
     "Teach",
     "Term",
+    "FactName",
     "Ticks",
     "Undo",
     "Varied",

@@ -15,6 +15,7 @@ from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
 from service.actions.evaluation import Advise, Evaluate, EvaluationTalk, FindWorst
+from service.actions.facts import FactName
 from service.actions.goals import Goal, Style
 from service.actions.parameters import MAX_PARAMETERS, PhraseParameter, figure
 from service.actions.questions import (
@@ -108,6 +109,7 @@ class Ask:
     value: int | float | str | None = None
     """the value that a setting is asked to have: answered by yes or no first"""
     term: Term | None = None
+    fact: FactName | None = None
     what: (
         HistoryName
         | OtherName

@@ -40,7 +40,7 @@ _OF: Final[Mapping[str, Moment]] = {
     **dict.fromkeys(("why", "why_not", "what_if", "other"), "decision"),
     **dict.fromkeys(("history", "blame", "pattern"), "drive"),
     **dict.fromkeys(("changes",), "present"),
-    **dict.fromkeys(("help", "options", "term", "styles", "pending", "detail", "quiz"), "none"),
+    **dict.fromkeys(("help", "options", "term", "fact", "styles", "pending", "detail", "quiz"), "none"),
 }
 """By kind of question; the state for those that are not listed."""
 

@@ -21,6 +21,7 @@ QuestionName = Literal[
     "setting",
     "options",
     "term",
+    "fact",
     "history",
     "styles",
     "changes",
@@ -502,6 +503,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "setting": QuestionTraits(("parameter", "value"), ("parameter",)),
     "options": QuestionTraits(("parameter",)),
     "term": QuestionTraits(("term",), ("term",)),
+    "fact": QuestionTraits(("fact",), ("fact",)),
     "history": QuestionTraits(
         (
             *("what", "move", "tick", "until", "ticks", "seconds", "count", "kind"),

@@ -11,7 +11,7 @@ from typing import Any, get_args
 
 from pydantic import ValidationError
 
-from service.actions import QUESTIONS, WHATS, ChatKind, Choosable, MetricName, Term, ViewName, load
+from service.actions import QUESTIONS, WHATS, ChatKind, Choosable, FactName, MetricName, Term, ViewName, load
 from service.actions.questions import (
     DetailName,
     PartName,
@@ -198,6 +198,8 @@ def _questions() -> Iterator[dict[str, Any]]:
             yield {"do": "ask", "about": "setting", "parameter": parameter, "value": value}
     for name in (*get_args(Parameter), *get_args(Choosable)):
         yield {"do": "ask", "about": "options", "parameter": name}
+    for fact in get_args(FactName):
+        yield {"do": "ask", "about": "fact", "fact": fact}
     for term in get_args(Term):
         yield {"do": "ask", "about": "term", "term": term}
     yield {"do": "ask", "about": "why", "what": "detour"}

@@ -45,6 +45,8 @@ MESSAGES = frozenset(
 """What the engine itself says."""
 
 TEST_SUFFIX = ".test.yaml"
+FACTS = Path("lexicon/facts.yaml")
+"""The sentences that ask for what is always so; the first of each is said back."""
 
 
 class LanguageDataError(ValueError):
@@ -137,16 +139,22 @@ def _documents(folder: Path) -> Documents:
             frames["frames"][name] = content
     named = ("sentences", "answers", "rules", "other_words")
     said_back, answers, rules, others = (folder / f"{name}.yaml" for name in named)
+    sentences = read_yaml(said_back) if said_back.is_file() else {}
     return Documents(
         words=words,
         numbers=read_yaml(folder / "numbers.yaml"),
         typos=read_yaml(folder / "typos.yaml"),
-        sentences=read_yaml(said_back) if said_back.is_file() else {},
+        sentences=sentences | {"facts": _first_phrases(folder / FACTS)} if sentences else {},
         answers=read_yaml(answers) if answers.is_file() else {},
         rules=read_yaml(rules) if rules.is_file() else {},
         others=read_yaml(others) if others.is_file() else {},
         frames=frames,
     )
+
+
+def _first_phrases(path: Path) -> dict[str, str]:
+    """By fact the phrase that asks for it; empty where a language has none."""
+    return {name: str(phrases[0]) for name, phrases in read_yaml(path)["fact"].items()} if path.is_file() else {}
 
 
 def _lexicon(folder: Path) -> Lexicon:

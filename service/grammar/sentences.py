@@ -297,6 +297,8 @@ class Sentences(RuleSentences):
                 return self._setting_asked(ask)
             case "options" if ask.parameter is not None:
                 return self._word("options_of", ask.parameter)
+            case "fact":
+                return self._word("facts", ask.fact)
             case "term":
                 return self._say("term", term=self._word("terms", ask.term))
             case "history":

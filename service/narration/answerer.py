@@ -75,6 +75,7 @@ def question(sayings: Sayings, ask: Ask) -> str:
         setting=named,
         until=ask.until,
         planner="" if ask.planner is None else sayings.planner(ask.planner),
+        fact="" if ask.fact is None else sayings.say("facts", ask.fact, "question"),
         term="" if ask.term is None else sayings.say("glossary", "names", ask.term),
     )
 

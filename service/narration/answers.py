@@ -76,6 +76,7 @@ from service.narration.sensing_facts import SensingFacts
 from service.narration.sensing_now import SensingNow
 from service.narration.sensor_effects import SensorEffects
 from service.narration.sensors_again import SensorsAgain
+from service.narration.facts import Facts
 from service.narration.session_facts import SessionFacts
 from service.narration.settings import Settings
 from service.narration.sight import Sights
@@ -198,6 +199,7 @@ class Answers:
             "setting": settings,
             "options": settings,
             "term": Glossary(sayings),
+            "fact": Facts(sayings),
             "history": History(sayings),
             "styles": Styles(sayings),
             "detail": self._details,

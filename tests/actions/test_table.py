@@ -102,6 +102,7 @@ def test_questions_take_their_keys_and_no_others(about: QuestionName) -> None:
         "parameter": "courtesy",
         "value": 0.5,
         "term": "tick",
+        "fact": "livelock",
         "what": "why" if about == "other" else "between",
         "until": 5,
         "ticks": 3,

@@ -9,7 +9,7 @@ import sys
 from random import Random
 from typing import Any, get_args
 
-from service.actions import Action, Term, dump, load
+from service.actions import Action, FactName, Term, dump, load
 from service.grammar import Language, Understood
 from service.grammar.sentences import Unsayable
 from service.styles import styles
@@ -275,6 +275,7 @@ class Maker:
                 "setting",
                 "options",
                 "term",
+                "fact",
                 "history",
                 "other",
                 "pattern",
@@ -318,6 +319,8 @@ class Maker:
                 action["parameter"] = self.pick((*CHOICES, *NUMBERS, *WHOLE))
                 if about == "setting" and self.chance(0.5):
                     action["value"] = self.value_of(action["parameter"])
+            case "fact":
+                action["fact"] = self.pick(get_args(FactName))
             case "term":
                 action["term"] = self.pick(get_args(Term))
             case "history":
