@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import string
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -25,12 +25,19 @@ class Canonical:
     """the words that it needs"""
     marks: frozenset[str]
     """the marks of a question that they stand for: all forms of a move are one"""
+    names: Mapping[str, str] = field(default_factory=dict)
+    """the slots that its own words name, such as the sensor of "does darkness affect the lidar?"; a question
+    that names the same is left nothing out of"""
 
     @classmethod
     def of(cls, text: str, forms: Collection[str] = ()) -> Canonical:
         """From a text such as "why not {going}?"; `forms`: the slots that are forms of a move."""
         slots = frozenset(name for _, name, _, _ in string.Formatter().parse(text) if name)
         return cls(text, slots, frozenset("move" if slot in forms else slot for slot in slots))
+
+    def shares(self, question: Question) -> frozenset[str]:
+        """The slots that a question names as this sentence does."""
+        return frozenset(slot for slot, said in self.names.items() if question.slots.get(slot) == said)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,12 +52,23 @@ class QuestionKind:
     unless: frozenset[str] = frozenset()
     """words that turn it round, such as "not": a question that has one is not of this kind"""
 
+    def naming(self, taken_apart: Callable[[str], Question]) -> QuestionKind:
+        """The same kind, whose sentences know what their own words name; `taken_apart` finds that."""
+        says = (
+            each if each.slots else replace(each, names=taken_apart(each.text).slots) for each in self.says
+        )
+        return replace(self, says=tuple(says))
+
     def sentence(self, question: Question) -> str | None:
         """The sentence that uses all binding slots but the ignored ones; None where none does."""
         if not self.unless.isdisjoint(question.words):
             return None
         binding = question.binding - self.ignores
-        fits = (each for each in self.says if each.slots <= question.slots.keys() and binding <= each.marks)
+        fits = (
+            each
+            for each in self.says
+            if each.slots <= question.slots.keys() and binding <= each.marks | each.shares(question)
+        )
         canonical = next(fits, None)
         return None if canonical is None else canonical.text.format_map(question.slots)
 

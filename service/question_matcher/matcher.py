@@ -86,7 +86,7 @@ class QuestionMatcher:
 
     @cached_property
     def _kinds(self) -> dict[str, QuestionKind]:
-        return read_kinds(self._folder)
+        return {name: kind.naming(self._words.question) for name, kind in read_kinds(self._folder).items()}
 
     @cached_property
     def _scores(self) -> KindScores:
