@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Final, Literal
 
 from anyio import CapacityLimiter, to_thread
 
@@ -12,8 +13,8 @@ from service.grammar.parse_types import Understood
 from service.grammar.topic import ALONE, Topic
 from service.interpreter.languages import Language, Languages
 from service.interpreter.question import Asked
-from service.question_matcher.kinds import Situation
 from service.question_matcher.matcher import QuestionMatcher
+from service.question_matcher.situations import Situation
 from service.refusals import refusals
 from service.sessions.pending import PendingChoice, PendingQuestion
 from sim.state import SimState
@@ -118,13 +119,17 @@ class QuestionReader:
         return None
 
 
+_OF_OUTCOMES: Final[Mapping[Outcome, Situation]] = {
+    Outcome.RUNNING: "running",
+    Outcome.CRASH: "crash",
+    Outcome.STUCK: "stuck",
+    Outcome.SUCCESS: "arrived",
+}
+
+
 def situations(run: SimState) -> frozenset[Situation]:
     """The situations of a run that say what may be asked."""
-    found = set[Situation]()
-    if run.world.outcome is Outcome.RUNNING:
-        found.add("running")
-    if run.world.outcome is Outcome.CRASH:
-        found.add("crash")
+    found: set[Situation] = {_OF_OUTCOMES[run.world.outcome]}
     if run.mode is Mode.MANUAL:
         found.add("manual")
     return frozenset(found)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from service.question_matcher import encoder, weights
 from service.question_matcher.encoder import Encoder
+from service.question_matcher.situations import Situation, led
 from service.question_matcher.weights import Weights
 
 SHARE = 0.5
@@ -49,11 +50,13 @@ class KindScores:
         """The words of the examples that have an answer."""
         return self._weights.words
 
-    def of(self, text: str, words: Sequence[str]) -> Mapping[str, float]:
+    def of(
+        self, text: str, words: Sequence[str], situations: Collection[Situation] = ()
+    ) -> Mapping[str, float]:
         """The logarithm of each kind's probability; `words`: those of the text, with marks for slots."""
         scores = _logarithms(self._weights.scores(words))
         if self._encoder is not None:
-            scores = SHARE * scores + (1 - SHARE) * self._encoder.scores(text)
+            scores = SHARE * scores + (1 - SHARE) * self._encoder.scores(led(text, situations))
         return dict(zip(self._weights.kinds, scores.tolist(), strict=True))
 
 

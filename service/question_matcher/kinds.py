@@ -6,12 +6,12 @@ import string
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
+from service.question_matcher.situations import Situation
 from service.question_matcher.slots import Question
 from service.yaml_files import read_yaml
 
-Situation = Literal["running", "crash", "manual"]
 NONE_OF_THEM = "other"
 """The kind of examples that no answer is for."""
 

@@ -22,7 +22,8 @@ from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from service.question_matcher.fillers import Fillers
 from service.question_matcher.follow_ups import FollowUps
 from service.question_matcher.kind_scores import KindScores
-from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, Situation, read_kinds
+from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, read_kinds
+from service.question_matcher.situations import Situation
 from service.question_matcher.slots import Question, SlotWords
 from sim.actions import Pause, Reset
 
@@ -124,7 +125,7 @@ class QuestionMatcher:
         if len(unknown) > MOST_UNKNOWN:
             return None
         unusual = {name for name, kind in self._kinds.items() if kind.when and kind.when not in situations}
-        scores = self._scores.of(text, question.words)
+        scores = self._scores.of(text, question.words, situations)
         order = sorted(
             ((score - UNUSUAL * (kind in unusual), kind) for kind, score in scores.items()),
             key=lambda each: (-each[0], each[1]),
