@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from service.grammar.numbers import NumberWords
 from service.grammar.other_words import OtherWords
 from service.grammar.patterns import PatternError, read_macros
 from service.grammar.rule_words import RuleWords
-from service.grammar.tokens import Contractions
+from service.grammar.tokens import Contractions, normalise, tokenise
 from service.grammar.typos import TypoRules
 from service.yaml_files import YamlError, read_yaml
 from sim.planner_names import BUILT_IN
@@ -45,8 +45,8 @@ MESSAGES = frozenset(
 """What the engine itself says."""
 
 TEST_SUFFIX = ".test.yaml"
-FACTS = Path("lexicon/facts.yaml")
-"""The sentences that ask for what is always so; the first of each is said back."""
+FACTS = "facts.yaml"
+"""The sentences that ask for what is always so, by fact; the first of each is said back."""
 
 
 class LanguageDataError(ValueError):
@@ -144,7 +144,7 @@ def _documents(folder: Path) -> Documents:
         words=words,
         numbers=read_yaml(folder / "numbers.yaml"),
         typos=read_yaml(folder / "typos.yaml"),
-        sentences=sentences | {"facts": _first_phrases(folder / FACTS)} if sentences else {},
+        sentences=sentences | {"facts": {name: said[0] for name, said in _facts(folder).items()}} if sentences else {},
         answers=read_yaml(answers) if answers.is_file() else {},
         rules=read_yaml(rules) if rules.is_file() else {},
         others=read_yaml(others) if others.is_file() else {},
@@ -152,9 +152,10 @@ def _documents(folder: Path) -> Documents:
     )
 
 
-def _first_phrases(path: Path) -> dict[str, str]:
-    """By fact the phrase that asks for it; empty where a language has none."""
-    return {name: str(phrases[0]) for name, phrases in read_yaml(path)["fact"].items()} if path.is_file() else {}
+def _facts(folder: Path) -> Mapping[str, Sequence[str]]:
+    """The sentences that ask for each fact; a language may do without."""
+    facts: Mapping[str, Sequence[str]] = read_yaml(folder / FACTS) if (folder / FACTS).is_file() else {}
+    return facts
 
 
 def _lexicon(folder: Path) -> Lexicon:
@@ -163,10 +164,19 @@ def _lexicon(folder: Path) -> Lexicon:
         lexicon.add_section(read_yaml(path).get("phrases", {}))
     for path in data_files(folder / "lexicon"):
         lexicon.add_section(read_yaml(path))
+    short = Contractions.from_data(read_yaml(folder / "words.yaml")["contractions"])
+    for name, said in _facts(folder).items():  # sentences as they are written, and no patterns
+        lexicon.add_section({"fact": {name: [_as_pattern(text, short) for text in said]}})
     if "planner" in lexicon.concepts:  # one that the language has no words for goes by its name
         unnamed = [name for name in BUILT_IN if ("planner", repr(name)) not in lexicon.typical]
         lexicon.add_section({"planner": {name: f"{name}, {name} planner" for name in unnamed}})
     return lexicon
+
+
+def _as_pattern(sentence: str, contractions: Contractions) -> str:
+    """A sentence as a phrase of the lexicon: its words as they are read, its marks in brackets."""
+    tokens = tokenise(normalise(sentence), contractions)
+    return " ".join(each.text if each.text.isalnum() else f"<{each.text}>" for each in tokens)
 
 
 def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:

@@ -144,7 +144,7 @@ class Lexicon:
             self._add_pattern(str(text), sense)
 
     def _add_pattern(self, text: str, sense: Sense) -> None:
-        pattern = read_pattern(text.lower(), self._macros)  # a noun may be written as in a sentence
+        pattern = read_pattern(text, self._macros)
         number = len(self._texts)
         self._texts.append(text)
         self.words.update(word for word in pattern.words() if word != GAP)
