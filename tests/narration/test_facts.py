@@ -13,6 +13,7 @@ from service.grammar import Language, Understood
 from service.narration import Narrator
 from service.narration.facts import DEPENDS, OTHERWISE
 from service.narration.sayings import Sayings
+from service.resources import prompts_folder
 from service.sessions.facts import Asked
 from sim.config import CHOICES, Config
 from sim.planner_names import BUILT_IN
@@ -86,11 +87,13 @@ def test_what_a_fact_depends_on_is_told_for_every_value(code: str) -> None:
 @pytest.mark.parametrize("code", CODES)
 def test_the_sentences_that_facts_tell_to_say_are_understood(code: str) -> None:
     language = Language.load(code)
+    of_the_page = (prompts_folder() / "interface" / code / "page.yaml").read_text()
     for fact in get_args(FactName):
         for text in texts(code, fact):
             for lead, said in re.findall(r"(\w*) ?[“„]([^“”„]+)[”“]", text):
-                if said[-1] == "?" or lead.casefold() in TO_SAY:
-                    assert isinstance(language.parse(said), Understood), (fact, said)
+                if "…" not in said and (said[-1] == "?" or lead.casefold() in TO_SAY):
+                    known = isinstance(language.parse(said), Understood) or said in of_the_page
+                    assert known, (fact, said)
 
 
 def test_the_answer_is_that_of_the_value_in_force() -> None:
