@@ -5,14 +5,23 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from service.question_matcher.kinds import read_kinds
+from service.question_matcher.situations import Situation
 from service.yaml_files import read_yaml
 
 EXAMPLES, ASKED, WORDS = "examples.yaml", "asked.yaml", "words.yaml"
 
-Example = tuple[str, tuple[str, ...]]
-"""A question, and the kinds that answer it, the best first."""
+
+class Example(NamedTuple):
+    """A question that is learnt from."""
+
+    text: str
+    kinds: tuple[str, ...]
+    """those that answer it, the best first"""
+    situation: Situation | None = None
+    """what the session was like in which it was asked, where that is known"""
 
 
 def sources_of(folder: Path) -> str:
@@ -25,15 +34,20 @@ def sources_of(folder: Path) -> str:
 def examples_of(folder: Path) -> list[Example]:
     """The questions that were written for one kind each."""
     data: Mapping[str, Sequence[str]] = read_yaml(folder / EXAMPLES)
-    return [(text, (kind,)) for kind, texts in data.items() for text in texts]
+    return [Example(text, (kind,)) for kind, texts in data.items() for text in texts]
 
 
 def asked_of(folder: Path) -> list[Example]:
     """The questions of people who knew nothing of the kinds; a language may have none.
 
-    A key of the file lists the kinds that answer its questions, the best first: "why_move, why".
+    The file lists them by situation, and then by the kinds that answer them, the best first: "why_move, why".
     """
     if not (folder / ASKED).exists():
         return []
-    data: Mapping[str, Sequence[str]] = read_yaml(folder / ASKED)
-    return [(text, tuple(kinds.split(", "))) for kinds, texts in data.items() for text in texts]
+    data: Mapping[Situation, Mapping[str, Sequence[str]]] = read_yaml(folder / ASKED)
+    return [
+        Example(text, tuple(kinds.split(", ")), situation)
+        for situation, by_kinds in data.items()
+        for kinds, texts in by_kinds.items()
+        for text in texts
+    ]

@@ -7,8 +7,9 @@
 It begins with the sentence encoder all-MiniLM-L6-v2 (Apache License 2.0), whose table of word pieces stays
 as it is, and learns kinds of questions: first from `examples.yaml`, then from `asked.yaml`, which holds
 questions of people who knew nothing of the kinds, together with a part of the examples. Of a question that
-two kinds answer it learns both. Letters are changed at random, as by a hasty hand. Takes half an hour on two
-cores.
+two kinds answer it learns both, and it reads the situation in which one was asked. Letters are changed at
+random, as by a hasty hand. It is learnt several times with other draws, and the weights are averaged. Takes some
+minutes on a GPU (`--device cuda`), hours on two cores.
 """
 
 from __future__ import annotations
@@ -16,7 +17,9 @@ from __future__ import annotations
 import argparse
 import random
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import torch
@@ -26,7 +29,8 @@ from torch import Tensor, nn
 from torch.nn import functional
 
 from service.question_matcher.encoder import FILE, HEADS, MAX_PIECES, TINY, write
-from service.question_matcher.kinds import read_kinds
+from service.question_matcher.kinds import QuestionKind, read_kinds
+from service.question_matcher.situations import Situation, led
 from service.resources import prompts_folder
 from tools.question_examples import Example, asked_of, examples_of, sources_of
 
@@ -39,8 +43,12 @@ SMOOTHING = 0.05
 MAIN_KIND = 0.7
 """Share of the first kind of a question that others answer as well."""
 OF_EXAMPLES = 12_000
-"""Examples that are learnt beside the questions of `asked.yaml` in each round."""
-ROUNDS = 3
+"""Examples that are learnt beside the questions of `asked.yaml` in each round but the first, which has all."""
+ROUNDS = 6
+SEEDS = 4
+"""How many networks are learnt, each with draws of its own, and averaged."""
+GUESSED = 0.7
+"""Share of the questions without a situation that are read after one."""
 HASTY = 0.25
 """Share of the questions that are changed as by a hasty hand."""
 RATE, RATE_OF_KINDS = 6e-5, 1e-3
@@ -137,7 +145,7 @@ def batches(examples: Sequence[Example], draw: random.Random) -> list[Sequence[E
     shuffled = draw.sample(examples, len(examples))
     found: list[Sequence[Example]] = []
     for start in range(0, len(shuffled), SORTED):
-        part = sorted(shuffled[start : start + SORTED], key=lambda each: len(each[0]))
+        part = sorted(shuffled[start : start + SORTED], key=lambda each: len(each.text))
         found += [part[at : at + BATCH] for at in range(0, len(part), BATCH)]
     draw.shuffle(found)
     return found
@@ -146,11 +154,14 @@ def batches(examples: Sequence[Example], draw: random.Random) -> list[Sequence[E
 class Trainer:
     """Trains a network on batches of examples."""
 
-    def __init__(self, network: Network, tokenizer: Tokenizer, kinds: Sequence[str]) -> None:
-        """`kinds`: the names of the network's outputs."""
+    def __init__(
+        self, network: Network, tokenizer: Tokenizer, kinds: Mapping[str, QuestionKind], seed: int
+    ) -> None:
+        """`kinds`: those of the network's outputs; the network is on the device that learns."""
         self._network, self._tokenizer = network, tokenizer
         self._at = {kind: at for at, kind in enumerate(kinds)}
-        self._draw = random.Random(1)
+        self._situations = {name: _situations_of(kind.when) for name, kind in kinds.items()}
+        self._draw = random.Random(seed)
 
     def learn(self, rounds: Iterator[Sequence[Example]]) -> None:
         """Learn from some rounds of examples, with a rate that rises at first and falls then."""
@@ -166,7 +177,7 @@ class Trainer:
         )
         lost = 0.0
         for step, batch in enumerate(steps):
-            texts = [hasty(text, self._draw) if self._draw.random() < HASTY else text for text, _ in batch]
+            texts = [self._as_read(each) for each in batch]
             loss = functional.cross_entropy(network(*self._rows(texts)), self._wanted(batch))
             loss.backward()
             nn.utils.clip_grad_norm_(network.parameters(), 1.0)
@@ -177,6 +188,14 @@ class Trainer:
             if step % 50 == 0:
                 print(f"step {step} of {len(steps)}: loss {lost:.2f}", flush=True)
 
+    def _as_read(self, example: Example) -> str:
+        """An example after its situation; where that is unknown, mostly after one in which it may be asked."""
+        text = hasty(example.text, self._draw) if self._draw.random() < HASTY else example.text
+        situation = example.situation
+        if situation is None and self._draw.random() < GUESSED:
+            situation = self._draw.choice(self._situations[example.kinds[0]])
+        return led(text, () if situation is None else (situation,))
+
     def _rows(self, texts: Sequence[str]) -> tuple[Tensor, Tensor]:
         pieces = [self._tokenizer.encode(text).ids[:MAX_PIECES] for text in texts]
         rows = torch.zeros(len(texts), max(map(len, pieces)), dtype=torch.long)
@@ -184,15 +203,33 @@ class Trainer:
         for at, each in enumerate(pieces):
             rows[at, : len(each)] = torch.tensor(each)
             mask[at, : len(each)] = True
-        return rows, mask
+        device = self._network.places.device
+        return rows.to(device), mask.to(device)
 
     def _wanted(self, batch: Sequence[Example]) -> Tensor:
         wanted = torch.full((len(batch), len(self._at)), SMOOTHING / len(self._at))
-        for row, (_, (first, *others)) in enumerate(batch):
+        for row, example in enumerate(batch):
+            first, *others = example.kinds
             wanted[row, self._at[first]] += (1 - SMOOTHING) * (MAIN_KIND if others else 1)
             for other in others:
                 wanted[row, self._at[other]] += (1 - SMOOTHING) * (1 - MAIN_KIND) / len(others)
-        return wanted
+        return wanted.to(self._network.places.device)
+
+
+def _situations_of(when: Situation | None) -> tuple[Situation, ...]:
+    """The situations in which a kind is asked that is mostly asked in one."""
+    if when is None:
+        return get_args(Situation)
+    return ("running", "manual") if when == "running" else (when,)
+
+
+def averaged(networks: Sequence[Network]) -> Network:
+    """The first of some networks with the mean of their weights (Wortsman et al. 2022, "Model soups")."""
+    states = [network.state_dict() for network in networks]
+    networks[0].load_state_dict(
+        {name: sum(each[name] for each in states) / len(states) for name in states[0]}
+    )
+    return networks[0]
 
 
 def save(network: Network, tokenizer: Tokenizer, kinds: Sequence[str], sources: str, path: Path) -> None:
@@ -226,22 +263,27 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--language", default="en")
     parser.add_argument("--model", type=Path, required=True, help="the folder of model.safetensors")
+    parser.add_argument("--device", default="cpu", help="cuda learns in minutes")
     options = parser.parse_args()
-    torch.manual_seed(1)
     folder = prompts_folder() / "questions" / options.language
-    kinds = list(read_kinds(folder))
-    examples = examples_of(folder)
+    kinds = read_kinds(folder)
+    examples, of_people = examples_of(folder), asked_of(folder)
     stored = load_file(options.model / "model.safetensors")
     tokenizer = Tokenizer.from_file(str(options.model / "tokenizer.json"))
     tokenizer.no_padding()
     tokenizer.no_truncation()
-    network = Network(stored, len(kinds))
-    trainer = Trainer(network, tokenizer, kinds)
-    trainer.learn(iter([examples]))
-    draw = random.Random(2)
-    of_people = asked_of(folder)
-    trainer.learn(of_people * 2 + draw.sample(examples, OF_EXAMPLES) for _ in range(ROUNDS))
-    save(network.eval(), tokenizer, kinds, sources_of(folder), folder / FILE)
+    networks = []
+    for seed in range(SEEDS):
+        # The outputs begin alike, so that the weights that are learnt can be averaged.
+        torch.manual_seed(1)
+        network = Network(stored, len(kinds)).to(options.device)
+        torch.manual_seed(seed)
+        draw = random.Random(seed)
+        later = (of_people * 2 + draw.sample(examples, OF_EXAMPLES) for _ in range(ROUNDS))
+        Trainer(network, tokenizer, kinds, seed).learn(chain([examples + of_people], later))
+        networks.append(network.cpu())
+    network = averaged(networks)
+    save(network.eval(), tokenizer, list(kinds), sources_of(folder), folder / FILE)
 
 
 if __name__ == "__main__":

@@ -46,9 +46,8 @@ LEAST = 2
 """How many examples a feature must occur in."""
 PARTS = 5
 STEPS = 127
-RIGHT = 0.93
-"""How often a kind must be right to be answered at once, in examples that were not learnt from."""
-MARGINS = tuple(np.arange(1.0, 6.0, 0.1).round(1).tolist())
+FIRM = 2
+"""Questions of one kind that count against its other answers before any is seen."""
 VECTORS = 12_000
 """How many of the most frequent words get weights by their vectors."""
 SCALE = 2.0
@@ -180,12 +179,25 @@ def wanted_of(said: Sequence[Example], names: Sequence[str], asked: int) -> NDAr
     """What the scores of each question should tell [question, kind]; the last `asked` are of people."""
     wanted = np.zeros((len(said), len(names)), np.float32)
     at = {name: column for column, name in enumerate(names)}
-    for row, (_, (first, *others)) in enumerate(said):
+    for row, example in enumerate(said):
+        first, *others = example.kinds
         wanted[row, at[first]] = MAIN_KIND if others else 1
         for other in others:
             wanted[row, at[other]] = (1 - MAIN_KIND) / len(others)
     wanted[len(said) - asked :] *= WEIGHT_OF_ASKED
     return wanted
+
+
+def also_of(asked: Sequence[Example], names: Sequence[str]) -> NDArray[np.int8]:
+    """See `Weights.also`: how often people's questions of a kind have the answers of others as well."""
+    at = {name: row for row, name in enumerate(names)}
+    together = np.zeros((len(names), len(names)))
+    for example in asked:
+        first, *others = example.kinds
+        together[at[first], [at[first], *map(at.__getitem__, others)]] += 1
+    shares = together / (together.diagonal() + FIRM)[:, None]
+    np.fill_diagonal(shares, 1)
+    return np.rint(shares * STEPS).astype(np.int8)
 
 
 def learn(examples: Rows, wanted: NDArray[np.float32]) -> NDArray[np.float64]:
@@ -210,8 +222,8 @@ def learn(examples: Rows, wanted: NDArray[np.float32]) -> NDArray[np.float64]:
 
 def cross_validated(
     examples: Sequence[Words], wanted: NDArray[np.float32], names: Sequence[str], vectors: Vectors, parts: int
-) -> float:
-    """The least margin with which a kind is right as often as `RIGHT`; prints how often it is found."""
+) -> None:
+    """Print how often the kind of an example is found by weights that were learnt without it."""
     kinds = wanted.argmax(axis=1)
     part = np.random.default_rng(1).integers(PARTS, size=len(examples))
     tried = part < parts
@@ -229,14 +241,11 @@ def cross_validated(
         margin[outside] = order[:, -1] - order[:, -2]
         mistakes.update((names[k], names[f]) for k, f in zip(kinds[outside], found, strict=True) if k != f)
     right, margin = right[tried], margin[tried]
-    sure = float(next((each for each in MARGINS if right[margin >= each].mean() >= RIGHT), MARGINS[-1]))
     print(f"{len(examples)} examples, {len(names)} kinds: {right.mean():.1%} found")
     for least in (0.5, 1.0, 1.5, 2.0, 3.0):
         wide = margin >= least
         print(f"  margin {least}: {wide.mean():.1%} of them, {right[wide].mean():.1%} right")
     print("  " + ", ".join(f"{a} as {b} {n}" for (a, b), n in mistakes.most_common(30)))
-    print(f"  sure from a margin of {sure} on")
-    return sure
 
 
 def main() -> None:
@@ -253,11 +262,11 @@ def main() -> None:
     made_up, asked = examples_of(folder), asked_of(folder)
     said = made_up + asked
     names = tuple(read_kinds(folder))
-    examples = [words.question(text).words for text, _ in said]
+    examples = [words.question(each.text).words for each in said]
     wanted = wanted_of(said, names, len(asked))
     seen = frozenset(word for each in examples for word in each)
     vectors = read_vectors(options.vectors, options.wordllama, seen)
-    sure = cross_validated(examples, wanted, names, vectors, options.parts)
+    cross_validated(examples, wanted, names, vectors, options.parts)
     if options.check:
         return
     inputs = Inputs.of(examples, vectors)
@@ -268,11 +277,11 @@ def main() -> None:
         rows=rows,
         table=np.rint(table / step).astype(np.int8),
         step=step,
-        sure=sure,
+        also=also_of(asked, names),
         words=frozenset(
             word
-            for (_, of), each in zip(said, examples, strict=True)
-            if of[0] != NONE_OF_THEM
+            for example, each in zip(said, examples, strict=True)
+            if example.kinds[0] != NONE_OF_THEM
             for word in each
         ),
         sources=sources_of(folder),

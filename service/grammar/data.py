@@ -144,7 +144,9 @@ def _documents(folder: Path) -> Documents:
         words=words,
         numbers=read_yaml(folder / "numbers.yaml"),
         typos=read_yaml(folder / "typos.yaml"),
-        sentences=sentences | {"facts": {name: said[0] for name, said in _facts(folder).items()}} if sentences else {},
+        sentences=sentences | {"facts": {name: said[0] for name, said in _facts(folder).items()}}
+        if sentences
+        else {},
         answers=read_yaml(answers) if answers.is_file() else {},
         rules=read_yaml(rules) if rules.is_file() else {},
         others=read_yaml(others) if others.is_file() else {},

@@ -39,4 +39,6 @@ class Facts:
         if not isinstance(texts, str):
             value = DEPENDS[texts["by"]](state)
             keys.append(value if value in texts else OTHERWISE)
-        return plain(self._sayings, asked.ask, state, self._sayings.say("facts", fact, *keys)) | {"fact": fact}
+        return plain(self._sayings, asked.ask, state, self._sayings.say("facts", fact, *keys)) | {
+            "fact": fact
+        }

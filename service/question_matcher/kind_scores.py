@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from math import log
 from pathlib import Path
 
 import numpy as np
@@ -40,10 +41,14 @@ class KindScores:
             raise ValueError(f"{file} is of other kinds than {folder / weights.FILE}")
         return cls(by_words, by_order)
 
-    @property
-    def sure(self) -> float:
-        """Least lead of a kind over the next one for it to be answered at once."""
-        return self._weights.sure
+    def right(self, scores: Mapping[str, float]) -> Mapping[str, float]:
+        """For each kind the probability that its answer is a right one, from the scores of all kinds.
+
+        That is more than the probability of the kind itself, since a question may have several right answers.
+        """
+        chances = np.exp(_logarithms(np.array([scores[kind] for kind in self._weights.kinds])))
+        right = chances @ (self._weights.also / np.iinfo(np.int8).max)
+        return dict(zip(self._weights.kinds, right.tolist(), strict=True))
 
     @property
     def words(self) -> frozenset[str]:
@@ -58,6 +63,12 @@ class KindScores:
         if self._encoder is not None:
             scores = SHARE * scores + (1 - SHARE) * self._encoder.scores(led(text, situations))
         return dict(zip(self._weights.kinds, scores.tolist(), strict=True))
+
+
+def log_odds(probability: float) -> float:
+    """The logarithm of the odds; of 0 and 1 that of what is next to them in steps of 1e-9."""
+    kept = min(max(probability, 1e-9), 1 - 1e-9)
+    return log(kept / (1 - kept))
 
 
 def _logarithms(scores: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ are near each other, or where a word occurs in no example.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -21,7 +21,7 @@ from service.grammar.topic import ALONE
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from service.question_matcher.fillers import Fillers
 from service.question_matcher.follow_ups import FollowUps
-from service.question_matcher.kind_scores import KindScores
+from service.question_matcher.kind_scores import KindScores, log_odds
 from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, read_kinds
 from service.question_matcher.situations import Situation
 from service.question_matcher.slots import Question, SlotWords
@@ -29,13 +29,8 @@ from sim.actions import Pause, Reset
 
 NEAR = 1.5
 """Lead over another kind, in logarithms of odds, below which both are offered."""
-LEAST_SURE = 2.25
-"""Least lead of what is answered at once, whatever cross-validation says of less.
-
-Of 300 questions that somebody wrote without sight of the examples, those with a lead of 2.25 or more were
-read rightly 91 times in 100, those with 2 to 2.25 7 times in 12; held-out examples are too like the others to
-tell.
-"""
+LEAST_SURE = 1.5
+"""Least certainty of what is answered at once: the logarithm of the odds that its answer is a right one."""
 LIKELY = 0.3
 """Least lead over what has no answer, for it to be asked about."""
 UNKNOWN_COST = 0.3
@@ -130,7 +125,8 @@ class QuestionMatcher:
             ((score - UNUSUAL * (kind in unusual), kind) for kind, score in scores.items()),
             key=lambda each: (-each[0], each[1]),
         )
-        match = self._decided(question, order, UNKNOWN_COST * len(unknown))
+        right = self._scores.right({kind: score for score, kind in order})
+        match = self._decided(question, order, right, UNKNOWN_COST * len(unknown))
         if match is not None and match.sure and order[0][1] in unusual:
             # What is asked of a crash is hardly meant where there was none: it is offered, not answered.
             return Match(match.sentences, sure=False)
@@ -145,25 +141,33 @@ class QuestionMatcher:
         likeliest = max(scores, key=scores.__getitem__) == NONE_OF_THEM
         return likeliest and not self._holds_a_request(text)
 
-    def _decided(self, question: Question, order: Sequence[tuple[float, str]], cost: float) -> Match | None:
-        """What the order of the kinds says, the likeliest first; `cost` is taken from their leads.
+    def _decided(
+        self,
+        question: Question,
+        order: Sequence[tuple[float, str]],
+        right: Mapping[str, float],
+        cost: float,
+    ) -> Match | None:
+        """What the order of the kinds says, the likeliest first.
 
-        A kind that no sentence fits, since it leaves a slot out, is no rival of one that is likelier; it is
-        asked about where it is much the likeliest.
+        `right` is the probability that the answer of a kind is a right one, `cost` what unknown words take
+        from its logarithm of odds. A kind that no sentence fits, since it leaves a slot out, is no rival of one
+        that is likelier; it is asked about where it is much the likeliest.
         """
         said = {name: self._kinds[name].sentence(question) for _, name in order}
-        rivals = [(score, said[name]) for score, name in order if said[name] or not self._kinds[name].says]
-        best, likeliest = rivals[0], order[0][0]
-        floor = next(score for score, name in order if name == NONE_OF_THEM) + LIKELY + cost
-        if best[1] is None or likeliest - best[0] >= NEAR:
+        rivals = [(score, name) for score, name in order if said[name] or not self._kinds[name].says]
+        (best, name), likeliest = rivals[0], order[0][0]
+        floor = next(score for score, each in order if each == NONE_OF_THEM) + LIKELY + cost
+        if said[name] is None or likeliest - best >= NEAR:
             if likeliest < floor:
                 return None
-            rivals = [(score, said[name] or self._kinds[name].offered(question)) for score, name in order]
-            best = rivals[0]
-        elif best[0] == likeliest and best[0] - rivals[1][0] - cost >= max(LEAST_SURE, self._scores.sure):
-            return Match((best[1],), sure=True)
-        near = [sentence for score, sentence in rivals if sentence and score >= max(floor, best[0] - NEAR)]
-        return Match(tuple(dict.fromkeys(near))[:MAX_CHOICES], sure=False) if near else None
+            said = {each: said[each] or self._kinds[each].offered(question) for each in said}
+            rivals, best = list(order), likeliest
+        elif best == likeliest and (sentence := said[name]) and log_odds(right[name]) - cost >= LEAST_SURE:
+            return Match((sentence,), sure=True)
+        offered = (said[each] for score, each in rivals if score >= max(floor, best - NEAR))
+        near = tuple(dict.fromkeys(filter(None, offered)))[:MAX_CHOICES]
+        return Match(near, sure=False) if near else None
 
     def _holds_a_request(self, text: str) -> bool:
         """Whether a part of a text asks for something to be done: nothing of that may be left out."""
