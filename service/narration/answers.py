@@ -38,6 +38,7 @@ from service.narration.device_facts import DeviceFacts
 from service.narration.drive_counts import DriveCounts
 from service.narration.drive_end import DriveEnds
 from service.narration.drive_figures import DriveFigures
+from service.narration.facts import Facts
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
 from service.narration.hand_beside import HandsBeside
@@ -76,7 +77,6 @@ from service.narration.sensing_facts import SensingFacts
 from service.narration.sensing_now import SensingNow
 from service.narration.sensor_effects import SensorEffects
 from service.narration.sensors_again import SensorsAgain
-from service.narration.facts import Facts
 from service.narration.session_facts import SessionFacts
 from service.narration.settings import Settings
 from service.narration.sight import Sights
