@@ -8,8 +8,8 @@ It begins with the sentence encoder all-MiniLM-L6-v2 (Apache License 2.0), whose
 as it is, and learns kinds of questions: first from `examples.yaml`, then from `asked.yaml`, which holds
 questions of people who knew nothing of the kinds, together with a part of the examples. Of a question that
 two kinds answer it learns both, and it reads the situation in which one was asked. Letters are changed at
-random, as by a hasty hand. It is learnt several times with other draws, and the weights are averaged. Takes some
-minutes on a GPU (`--device cuda`), hours on two cores.
+random, as by a hasty hand. It is learnt several times with other draws, and the weights are averaged. Takes
+some minutes on a GPU (`--device cuda`), hours on two cores.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ SMOOTHING = 0.05
 MAIN_KIND = 0.7
 """Share of the first kind of a question that others answer as well."""
 OF_EXAMPLES = 12_000
-"""Examples that are learnt beside the questions of `asked.yaml` in each round but the first, which has all."""
+"""Examples that are learnt beside the questions of `asked.yaml` in each round but the first, of all."""
 ROUNDS = 6
 SEEDS = 4
 """How many networks are learnt, each with draws of its own, and averaged."""
@@ -189,7 +189,7 @@ class Trainer:
                 print(f"step {step} of {len(steps)}: loss {lost:.2f}", flush=True)
 
     def _as_read(self, example: Example) -> str:
-        """An example after its situation; where that is unknown, mostly after one in which it may be asked."""
+        """An example after its situation; where that is unknown, mostly after one that it may be asked in."""
         text = hasty(example.text, self._draw) if self._draw.random() < HASTY else example.text
         situation = example.situation
         if situation is None and self._draw.random() < GUESSED:

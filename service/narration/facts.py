@@ -1,4 +1,4 @@
-"""Answers that are the same in every drive, or for each planner, sensor or the like: "can you oscillate forever?"."""
+"""Answers that are the same in every drive, or for each planner, sensor or the like: "do you oscillate?"."""
 
 from __future__ import annotations
 

@@ -151,8 +151,8 @@ class QuestionMatcher:
         """What the order of the kinds says, the likeliest first.
 
         `right` is the probability that the answer of a kind is a right one, `cost` what unknown words take
-        from its logarithm of odds. A kind that no sentence fits, since it leaves a slot out, is no rival of one
-        that is likelier; it is asked about where it is much the likeliest.
+        from its logarithm of odds. A kind that no sentence fits, since it leaves a slot out, is no rival of
+        one that is likelier; it is asked about where it is much the likeliest.
         """
         said = {name: self._kinds[name].sentence(question) for _, name in order}
         rivals = [(score, name) for score, name in order if said[name] or not self._kinds[name].says]
