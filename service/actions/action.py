@@ -183,7 +183,9 @@ class Ask:
         ):
             raise ValueError("'count' is of where another one goes, within some ticks")
         if self.what in get_args(SoFarName) and not self._varies_settings():
-            raise ValueError("of the drive so far another planner, sensor, weather or time of day is supposed")
+            raise ValueError(
+                "of the drive so far another planner, sensor, weather or time of day is supposed"
+            )
         if self.what in get_args(PastMoveName) and self.move is None:
             raise ValueError("of a move that was made it is said which is supposed instead")
         if self.about == "what_if" and self.count is not None and self.change is None:
