@@ -91,8 +91,8 @@ BlameName = Literal[
 `human`: whether a person would have crashed; `first_seen`: since when what was hit was seen; `the_other`:
 where what was hit came from, and how fast; `other_could`: whether it could have kept clear; `rules`: what
 part the planner's own rules had; `bug`: whether the program did other than its rules say; `factor`: which one
-of sensor, weather and planner, replaced alone, would have led to the goal; `expected`: what was expected of what
-was hit; `entered`: why its cell was entered.
+of sensor, weather and planner, replaced alone, would have led to the goal; `expected`: what was expected of
+what was hit; `entered`: why its cell was entered.
 """
 PlannerFactName = Literal[
     "lookahead",
@@ -403,7 +403,7 @@ longer, or forward in its place.
 PastMoveName = Literal["own_last"]
 """What move is supposed to have been another one: the latest that a person asked for."""
 SoFarName = Literal["so_far"]
-"""That a change of planner, sensor, weather or time of day is supposed of this drive since its start, up to now."""
+"""That a change of planner, sensor, weather or time of day is supposed of this drive since its start."""
 SideName = Literal["other_side"]
 """The side opposite to that of the latest move to the side or diagonally."""
 ScaleName = Literal["halved", "doubled"]

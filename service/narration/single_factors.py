@@ -24,7 +24,7 @@ class SingleFactorsTold:
         self._sayings = sayings
 
     def answer(self, asked: Asked) -> Json:
-        """See `Answerer.answer`. `supposes`: the one factor that is asked about; yes or no comes first then."""
+        """See `Answerer.answer`. `supposes`: the one factor that is asked about, with yes or no first."""
         ask, timeline = asked.ask, asked.timeline
         state = timeline.state
         try:
@@ -35,9 +35,8 @@ class SingleFactorsTold:
             return plain(self._sayings, ask, state, text) | {"what": ask.what}
         one = next((each for each in FACTORS if each == asked.supposes), None)
         parts = [Part(0, self._head(found) if one is None else self._verdict(found, one))]
-        for factor in FACTORS:
-            if one is None or factor != one:
-                parts.append(Part(0 if one is None else 1, self._line(found, factor)))
+        rest = [factor for factor in FACTORS if factor != one]
+        parts += [Part(0 if one is None else 1, self._line(found, factor)) for factor in rest]
         parts.append(Part(2, self._say("measure")))
         facts = [
             {"factor": each.factor, "value": each.value, "outcome": each.outcome, "ticks": each.ticks}

@@ -1,4 +1,4 @@
-"""Answers about the drive up to now with something otherwise: "would Dijkstra have driven the same so far?"."""
+"""Answers about the drive so far with something otherwise: "would Dijkstra have driven the same so far?"."""
 
 from __future__ import annotations
 

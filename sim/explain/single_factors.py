@@ -1,4 +1,4 @@
-"""Which one thing, replaced alone, would have led a drive that failed to the goal: sensor, conditions, planner.
+"""Which one thing, replaced alone, would have led a failed drive to the goal: sensor, conditions, planner.
 
 Each is replaced by the best there is of it: the perfect sensor, a clear day, every other planner that comes
 with the project. The drive is run again from its start for each (`sim.explain.so_far`).

@@ -1,4 +1,4 @@
-"""The present drive up to now, driven again from its start with its planner, sensor, weather or light otherwise.
+"""The present drive up to now, driven again from its start with planner, sensor, weather or light otherwise.
 
 The seed is the same, and what people said meanwhile is said again at the same ticks, without settings of what
 is varied. A drive that has ended is followed to the end of the other one; of one that goes on, both are
