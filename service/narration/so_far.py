@@ -34,7 +34,8 @@ class DrivesSoFar:
         """See `Answerer.answer`."""
         ask, timeline = asked.ask, asked.timeline
         state = timeline.state
-        varied = {each.parameter: str(each.value) for each in ask.change or () if isinstance(each, Set)}
+        change = ask.change or ()
+        varied: dict[str, str] = {each.parameter: str(each.value) for each in change if isinstance(each, Set)}
         if "planner" in varied:
             varied["planner"] = str(canonical(varied["planner"]))
         try:
