@@ -34,6 +34,7 @@ from service.actions.questions import (
     OtherName,
     OutlookName,
     PartName,
+    PastMoveName,
     PlannersName,
     PolicyName,
     QuestionName,
@@ -42,6 +43,7 @@ from service.actions.questions import (
     SeedsName,
     SideName,
     SightName,
+    SoFarName,
     SoonerName,
     Term,
     WantName,
@@ -64,7 +66,7 @@ from service.actions.steering import (
     Ticks,
     Undo,
 )
-from sim.actions import Cancel, Parameter, PlaceableKind, Trigger, Where, WorldAction
+from sim.actions import Cancel, Parameter, PlaceableKind, Set, Trigger, Where, WorldAction
 from sim.config import CHOICES
 from sim.planner_names import PlannerName
 from sim.sensor_names import SensorName
@@ -122,6 +124,8 @@ class Ask:
         | SideName
         | ScaleName
         | SeedsName
+        | PastMoveName
+        | SoFarName
         | SightName
         | WorldName
         | None
@@ -180,6 +184,12 @@ class Ask:
             and (self.what != "going" or self.count > MAX_AHEAD)
         ):
             raise ValueError("'count' is of where another one goes, within some ticks")
+        if self.what in get_args(SoFarName) and not self._varies_settings():
+            raise ValueError(
+                "of the drive so far another planner, sensor, weather or time of day is supposed"
+            )
+        if self.what in get_args(PastMoveName) and self.move is None:
+            raise ValueError("of a move that was made it is said which is supposed instead")
         if self.about == "what_if" and self.count is not None and self.change is None:
             raise ValueError("'count' says how many times a 'change' is made")
         if self.what is not None:
@@ -189,6 +199,13 @@ class Ask:
         _refuse_kinds(
             "it cannot be asked what if to", self.change or (), (Ask, Chat, Teach, Forget, Trigger, Cancel)
         )
+
+    def _varies_settings(self) -> bool:
+        """Whether a change is of settings that a drive can be driven again with, each named once."""
+        change = self.change or ()
+        named = [each.parameter for each in change if isinstance(each, Set) and isinstance(each.value, str)]
+        known = set(named) <= {"planner", "sensor", "weather", "time_of_day"}
+        return bool(change) and len(set(named)) == len(change) and known and self.count is None
 
     def _check_sight(self) -> None:
         """Raise `ValueError` where a kind of things or a sensor does not belong to what is asked."""

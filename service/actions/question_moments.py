@@ -64,6 +64,7 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
                 "straight_line",
                 "started",
                 "hand_since",
+                "unsafe_moves",
             ),
         )
     },

@@ -83,12 +83,17 @@ BlameName = Literal[
     "other_could",
     "rules",
     "bug",
+    "factor",
+    "expected",
+    "entered",
 ]
 """What about a crash is asked.
 
 `human`: whether a person would have crashed; `first_seen`: since when what was hit was seen; `the_other`:
 where what was hit came from, and how fast; `other_could`: whether it could have kept clear; `rules`: what
-part the planner's own rules had; `bug`: whether the program did other than its rules say.
+part the planner's own rules had; `bug`: whether the program did other than its rules say; `factor`: which one
+of sensor, weather and planner, replaced alone, would have led to the goal; `expected`: what was expected of
+what was hit; `entered`: why its cell was entered.
 """
 PlannerFactName = Literal[
     "lookahead",
@@ -180,6 +185,7 @@ HistoryName = Literal[
     "influence",
     "trouble",
     "explained",
+    "unsafe_moves",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -204,7 +210,7 @@ straight ahead it drove; `luck`: how the same drive goes with other chances; `st
 began; `hand_since`: since when a person drives, and which of its moves were held back; `stuck_cause`: why it
 got stuck; `knowable`: when it could have been known that no way was left;
 `influence`: whether others braked or turned because of it; `trouble`: what its moves hung on most;
-`explained`: the last moves, each with its reason.
+`explained`: the last moves, each with its reason; `unsafe_moves`: moves of a person that the rules forbid.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -395,6 +401,10 @@ SoonerName = Literal["sooner_stop", "sooner_change", "longer_wait", "unstopped"]
 """What is supposed of this drive so far: its latest stop or lane change a tick sooner, that stop a tick
 longer, or forward in its place.
 """
+PastMoveName = Literal["own_last"]
+"""What move is supposed to have been another one: the latest that a person asked for."""
+SoFarName = Literal["so_far"]
+"""That a change of planner, sensor, weather or time of day is supposed of this drive since its start."""
 SideName = Literal["other_side"]
 """The side opposite to that of the latest move to the side or diagonally."""
 ScaleName = Literal["halved", "doubled"]
@@ -545,7 +555,10 @@ WHATS: Final[Mapping[QuestionName, tuple[str, ...]]] = {
     "why_not": get_args(MomentName),
     "what_if": tuple(
         what
-        for names in (MomentName, PolicyName, SoonerName, SideName, ScaleName, SeedsName)
+        for names in (
+            *(MomentName, PolicyName, SoonerName, SideName, ScaleName, SeedsName),
+            *(PastMoveName, SoFarName),
+        )
         for what in get_args(names)
     ),
     "history": get_args(HistoryName),
@@ -584,6 +597,9 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
         (frozenset(),),
     ),
     **dict.fromkeys(get_args(BlameName), (frozenset(), frozenset(("tick",)))),
+    "factor": (frozenset(),),
+    "so_far": (frozenset(),),
+    "own_last": (frozenset(("move",)),),
     **dict.fromkeys(
         ("here", "compare"),
         tuple(
@@ -662,6 +678,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     ),
     "explained": (frozenset(), frozenset(("ticks",))),
     **dict.fromkeys(("end", "stuck_cause", "knowable", "influence", "trouble"), (frozenset(),)),
+    "unsafe_moves": (frozenset(),),
     "needed": tuple(
         frozenset(named + when) for named in ((), ("move",)) for when in ((), ("tick",), ("ticks",))
     ),

@@ -191,6 +191,12 @@ def _questions() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "what_if", "what": "to_lane", "lane": 3}
     for what, kind in product(get_args(ScaleName), PLACEABLE):
         yield {"do": "ask", "about": "what_if", "what": what, "kind": kind}
+    for parameter in ("planner", "sensor", "weather", "time_of_day"):
+        for value in CHOICES[parameter]:
+            change = [{"do": "set", "parameter": parameter, "value": value}]
+            yield {"do": "ask", "about": "what_if", "what": "so_far", "change": change}
+    for move in Move:
+        yield {"do": "ask", "about": "what_if", "what": "own_last", "move": move}
     yield {"do": "ask", "about": "why", "what": "other_side"}
     for parameter in get_args(Parameter):
         yield {"do": "ask", "about": "setting", "parameter": parameter}
@@ -233,7 +239,7 @@ def _questions() -> Iterator[dict[str, Any]]:
     for what in ("sighted", "overlooked", "lost_sight", "noticed", "shares", "listed", "advanced", "end"):
         yield {"do": "ask", "about": "history", "what": what}
     yield {"do": "ask", "about": "history", "what": "explained", "ticks": 5}
-    for what in ("stuck_cause", "knowable", "influence", "trouble", "explained"):
+    for what in ("stuck_cause", "knowable", "influence", "trouble", "explained", "unsafe_moves"):
         yield {"do": "ask", "about": "history", "what": what}
     for want in ("first", "last", "share"):
         yield {"do": "ask", "about": "history", "what": "sighted", "want": want}
@@ -306,7 +312,7 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "outlook", "what": "worst", "seconds": 2.5}
     yield {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3}
     yield {"do": "ask", "about": "outlook", "what": "coming", "seconds": 2.5}
-    for what in (*WHATS["blame"], "own"):
+    for what in (*(what for what in WHATS["blame"] if what != "factor"), "own"):
         about = "planners" if what == "own" else "blame"
         yield {"do": "ask", "about": about, "what": what, "tick": 12}
     for what in ("here", "compare"):

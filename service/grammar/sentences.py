@@ -258,6 +258,8 @@ class Sentences(RuleSentences):
                 move = "" if ask.move is None else self._word(form, ask.move)
                 if ask.tick is not None:
                     raise Unsayable("a way of driving from a tick on")
+                if ask.what == "so_far":
+                    return self._say("what_if_so_far", settings=self._settings(ask.change or ()))
                 things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
                 return self._say(f"{ask.about}_{ask.what}", move=move, things=things, lane=ask.lane)
             case "why" | "why_not":
@@ -312,6 +314,15 @@ class Sentences(RuleSentences):
                 return self._say(key, count=ask.count, tick=ask.tick)
             case about:
                 return self._say(about)
+
+    def _settings(self, change: Sequence[Action]) -> str:
+        """Settings as they are supposed to be: "Dijkstra", "lidar and clear weather"."""
+        said = [
+            self._word("supposed", each.parameter).format(value=self._value(each.parameter, str(each.value)))
+            for each in change
+            if isinstance(each, Set)
+        ]
+        return str(self._words["and"]).join(said)
 
     def _at_tick(self, ask: Ask, key: str, **parts: str) -> str:
         """A question about a tick, one so many ticks or seconds ago, or none."""

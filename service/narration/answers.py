@@ -38,6 +38,7 @@ from service.narration.device_facts import DeviceFacts
 from service.narration.drive_counts import DriveCounts
 from service.narration.drive_end import DriveEnds
 from service.narration.drive_figures import DriveFigures
+from service.narration.expectations import Expectations
 from service.narration.facts import Facts
 from service.narration.glossary import Glossary
 from service.narration.goals import Styles
@@ -81,10 +82,13 @@ from service.narration.session_facts import SessionFacts
 from service.narration.settings import Settings
 from service.narration.sight import Sights
 from service.narration.sightings import PastSightings
+from service.narration.single_factors import SingleFactorsTold
+from service.narration.so_far import DrivesSoFar
 from service.narration.soon import Soon
 from service.narration.status import Help, Status
 from service.narration.stretches import Stretches
 from service.narration.talk import OpenQuestion, RecentChanges
+from service.narration.unsafe_moves import UnsafeMovesTold
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
 from service.narration.world import Worlds
@@ -97,6 +101,7 @@ from sim.explain import QuestionError
 from sim.explain.moments import state_at
 from sim.explain.query import latest_detour
 from sim.explain.sooner import longer_wait, sooner_change, sooner_stop, unstopped
+from sim.explain.unsafe_moves import latest_by_hand
 from sim.explain.what_if import moment_of
 from sim.types import Kind, Move
 
@@ -180,6 +185,10 @@ class Answers:
             HandsOn(sayings): ("hand_since",),
             PlansTold(sayings): ("plan", "plan_changes"),
             OtherSeeds(sayings): ("other_seeds",),
+            DrivesSoFar(sayings): ("so_far",),
+            SingleFactorsTold(sayings): ("factor",),
+            Expectations(sayings): ("expected", "entered"),
+            UnsafeMovesTold(sayings): ("unsafe_moves",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
         whys, settings = Whys(sayings), Settings(sayings)
@@ -290,6 +299,14 @@ def _to_the_other_side(asked: Asked) -> Asked:
     return _supposing(asked, other, found.tick)
 
 
+def _of_a_persons_last_move(asked: Asked) -> Asked:
+    """What if another move had been made in place of a person's latest one. Raises `QuestionError`."""
+    tick = latest_by_hand(asked.timeline)
+    if tick is None:
+        raise QuestionError("no_move_by_hand")
+    return replace(asked, ask=replace(asked.ask, what=None, tick=tick))
+
+
 def _scaled(asked: Asked) -> Asked:
     """What if there were half or twice as many things of a kind, from where a drive that is over began."""
     ask, timeline = asked.ask, asked.timeline
@@ -314,6 +331,7 @@ _OF_AN_EARLIER_MOVE: Final[Mapping[str | None, Callable[[Asked], Asked]]] = {
     "longer_wait": _with_longer_wait,
     "unstopped": _with_no_stop,
     "other_side": _to_the_other_side,
+    "own_last": _of_a_persons_last_move,
     "halved": _scaled,
     "doubled": _scaled,
 }
