@@ -65,7 +65,7 @@ def single_factors(timeline: Timeline) -> SingleFactors:
     if world.outcome not in (Outcome.CRASH, Outcome.STUCK) or world.ended is None:
         raise QuestionError("not_failed", tick=timeline.tick)
     if len(world.avs) > 1:
-        raise QuestionError("not_again")
+        raise QuestionError("several_drive")
     found = []
     for factor, value, varied in _replaced(timeline.at(world.ended)):
         outcome, ticks = None, 0

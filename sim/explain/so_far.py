@@ -100,14 +100,14 @@ def driven_otherwise(
     """Each tick of the present episode with other settings, to its end or to a tick.
 
     Raises `QuestionError`: `no_such_planner`, `too_long_again` where driving it again would take too long,
-    `not_again` where a new road was begun on the way or several egos drive, `no_answer` of a planner that
-    gives none; `ConfigError` for values that cannot be.
+    `several_drive` with several egos, `not_again` where a new road was begun on the way, `no_answer` of a
+    planner that gives none; `ConfigError` for values that cannot be.
     """
     world = timeline.state.world
     last = timeline.tick if world.ended is None else world.ended
     start = timeline.at(world.episode_start)
     if len(world.avs) > 1:
-        raise QuestionError("not_again")
+        raise QuestionError("several_drive")
     planner = varied.get("planner")
     if planner is not None:
         if planner_named(planner) is None:

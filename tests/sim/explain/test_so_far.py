@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from sim.actions import Drive, SetMode
+from sim.actions import Add, Drive, SetMode
 from sim.config import Config
 from sim.explain.expectation import Entry, expectation
 from sim.explain.question_error import QuestionError
@@ -17,7 +17,7 @@ from sim.perceive import sensor_named
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
-from sim.types import Mode, Move, Outcome
+from sim.types import Kind, Mode, Move, Outcome
 
 SEEDS = range(14)
 VARIED = (
@@ -163,3 +163,13 @@ def test_unsafe_moves_are_those_held_back_or_made_into_what_was_seen() -> None:
     assert told
     assert unsafe_moves(driven(0)).by_hand == 0
     assert latest_by_hand(driven(0)) is None
+
+
+def test_with_several_autonomous_vehicles_it_is_not_told() -> None:
+    timeline = Timeline(Config(seed=4))
+    timeline.apply(1, [Add(kind=Kind.AV, count=1)])
+    for _ in range(3):
+        timeline.advance()
+    with pytest.raises(QuestionError) as refused:
+        so_far(timeline, {"planner": "astar"})
+    assert refused.value.code == "several_drive"
