@@ -218,7 +218,7 @@ class Ask:
             raise ValueError("say 'count' or 'kind'")
         if self.what == "sighted" and self.want == "list":
             raise ValueError("of what was detected the first or the last is told, or whether")
-        if self.which is not None and (self.what != "sighted" or self.kind is not None):
+        if self.which is not None and (self.what not in _OF_A_THING or self.kind is not None):
             raise ValueError("'which' is of what was detected, and says its kind")
         if self.what == "ended" and self.metric not in ("crashes", "successes"):
             raise ValueError("ends are crashes or successes")
@@ -259,6 +259,8 @@ _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "
 _BESIDE_WHAT = ("move", "tick", "until", "ticks", "seconds", "planners", "planner")
 """Keys that some values of `what` need, and others must not have."""
 
+_OF_A_THING = ("sighted", "last_detected", "places_before")
+"""What of the past is asked of one thing."""
 _OF_A_SENSOR = ("weathers", "sensor_fault", "effect", "range", "detection", "would_see", "by_device")
 """What of sensing may be asked of one sensor."""
 _OF_A_KIND = ("detection", "belief", "would_see", "first_device")

@@ -64,6 +64,13 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
                 "straight_line",
                 "started",
                 "hand_since",
+                "last_detected",
+                "least_ttc",
+                "smoothness",
+                "reversals",
+                "nearest_goal",
+                "here_since",
+                "not_advanced",
             ),
         )
     },

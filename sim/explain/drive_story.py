@@ -18,7 +18,7 @@ from sim.explain.past import MOST_TICKS
 from sim.explain.question_error import QuestionError
 from sim.session.timeline import Timeline
 from sim.state import SimState
-from sim.types import Kind, Move, Outcome, kind_of
+from sim.types import Kind, Mode, Move, Outcome, kind_of
 
 
 class Happened(StrEnum):
@@ -152,8 +152,7 @@ def _for(timeline: Timeline, before: SimState, after: SimState) -> Kind | None:
     """The kind of what would have been met straight ahead; None where nothing would."""
     decision = timeline.decided(before)
     faulty = decision is not None and (decision.timed_out or decision.fault is not None)
-    taken = timeline.taken(before)
-    by_person = taken is None or decision is None
+    by_person = before.mode is Mode.MANUAL
     sake: Sake = detour_reason(before.world, after.world, by_person=by_person, faulty=faulty)[0]
     return sake if isinstance(sake, Kind) else None
 

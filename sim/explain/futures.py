@@ -198,8 +198,8 @@ class Futures:
                 break
             node, draws = self._root, stream.narrow(number)
             cell: int | None = world.avs[self._number]
-            for step in range(within):
-                node = _pick(self._after(node), draws.uniform(step))
+            for draw in range(within):
+                node = _pick(self._after(node), draws.uniform(draw))
                 cell = node.state.world.avs[self._number]
                 if node.state.world.outcome is not Outcome.RUNNING:
                     cell = None

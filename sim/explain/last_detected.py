@@ -95,7 +95,5 @@ def _reported(state: SimState, things: Iterable[Detection]) -> list[str]:
             cells.add((report.kind, report.cell))
     index = state.world.road.index
     return [
-        each.id
-        for each in things
-        if (each.kind, each.id) in ids or (each.kind, index(each.cell)) in cells
+        each.id for each in things if (each.kind, each.id) in ids or (each.kind, index(each.cell)) in cells
     ]

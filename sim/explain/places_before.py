@@ -29,7 +29,7 @@ class PlacesBefore:
 
 
 def hit_thing(timeline: Timeline) -> tuple[str, int] | None:
-    """The id of what was hit in the latest crash, and the tick that shows it; None for another ego or none."""
+    """The id of what was hit in the latest crash, and the tick that shows it; None for another ego."""
     tick = latest_crash(timeline)
     cause = None if tick is None else timeline.at(tick).world.cause
     if tick is None or cause is None:

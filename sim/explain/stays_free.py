@@ -84,7 +84,7 @@ def stays_free(timeline: Timeline, move: Move, ticks: int | None = None) -> Stay
         move,
         most,
         now,
-        most if at is None else at - 1,
+        0 if now is not None else most if at is None else at - 1,
         None if hit is not None else who,
         hit,
         frees,
