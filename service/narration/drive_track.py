@@ -1,4 +1,4 @@
-"""Answers about the course of a drive: how smooth it was, turns to and fro, since when it is here, least TTC."""
+"""Answers about the course of a drive: how smooth it was, to and fro, since when it is here, least TTC."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ class SpaceAhead:
         ask, timeline = asked.ask, asked.timeline
         try:
             if ask.what == "stays_free":
-                free = stays_free(timeline, ask.move or Move.FORWARD, self._ticks(asked))
+                free = stays_free(timeline, Move(ask.move or Move.FORWARD), self._ticks(asked))
                 text, facts = self._free(free, asked), _free_json(free)
             else:
                 tick = timeline.tick + (self._ticks(asked) or 1) if ask.tick is None else ask.tick

@@ -141,7 +141,7 @@ def _add_move(events: list[StoryEvent], timeline: Timeline, before: SimState, af
     what = Happened.STOP if not across else Happened.LEFT if across < 0 else Happened.RIGHT
     kind = _for(timeline, before, after)
     tick = before.world.tick
-    if events and events[-1].what is what and events[-1].last == tick - 1 and events[-1].kind in (None, kind):
+    if events and events[-1].what is what and events[-1].last == tick - 1 and events[-1].kind is kind:
         earlier = events.pop()
         events.append(StoryEvent(earlier.tick, what, earlier.ticks + 1, kind))
     else:
