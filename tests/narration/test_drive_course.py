@@ -80,7 +80,9 @@ def test_what_others_do_next_is_what_they_then_do() -> None:
         timeline.advance()
         for each in answer["others"]:  # type: ignore[attr-defined]
             was, now = before.world.find(each["id"]), timeline.state.world.find(each["id"])
-            assert was is not None and now is not None and was.kind is Kind.VEHICLE
+            assert was is not None
+            assert now is not None
+            assert was.kind is Kind.VEHICLE
             across = now.cell[0] - was.cell[0]
             assert {-1: "left", 0: "stay", 1: "right"}[across] == each["move"]
             moved += across != 0
