@@ -60,7 +60,7 @@ class DriveStories:
             told.remove(min(told, key=lambda each: (_weight(each[0]), -each[0].tick)))
             left_out += 1
         more = self._say("left_out", "one" if left_out == 1 else "many", count=left_out) if left_out else ""
-        course = "; ".join([start, *(text for _, text in told), end]) + "."
+        course = self._say("course", parts="; ".join([start, *(text for _, text in told), end]))
         return " ".join(each for each in (course, misses, more) if each)
 
     def _start(self, found: DriveStory) -> str:
@@ -96,8 +96,9 @@ class DriveStories:
             left_out += len(groups[least])
             del groups[least], told[least]
         more = self._say("left_out", "one" if left_out == 1 else "many", count=left_out) if left_out else ""
-        head = self._say("wrong", "one" if count == 1 else "many", count=count)
-        return within([Part(0, f"{head} {'; '.join(told)}."), Part(0, more), Part(1, unknown)])
+        key = "one" if count == 1 else "many"
+        listed = self._say("wrong", key, count=count, parts="; ".join(told))
+        return within([Part(0, listed), Part(0, more), Part(1, unknown)])
 
     def _group(self, group: Sequence[StoryEvent], found: DriveStory) -> str:
         first = group[0]

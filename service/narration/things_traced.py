@@ -90,8 +90,8 @@ class ThingsTraced:
             key = "now" if not ago else "one" if ago == 1 else "many"
             parts.append(self._say("place", key, ticks=ago, place=place))
         who = self._sayings.say("naming", "the", found.kind)
-        told = self._say("places", "crash" if found.crashed else "now", who=who, tick=found.tick)
-        return capital(f"{told} {'; '.join(parts)}.")
+        key = "crash" if found.crashed else "now"
+        return capital(self._say("places", key, who=who, tick=found.tick, parts="; ".join(parts)))
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("things_traced", *keys, **parts)
