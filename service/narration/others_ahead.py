@@ -95,11 +95,11 @@ class AllOthers:
             for thing, way in found.ways
             if way is not Move.STAY
         ]
-        parts = [Part(0, self._say("next", parts="; ".join(told)))]
+        answer = [Part(0, self._say("next", parts="; ".join(told)))]
         if near:
             listed = self._sayings.joined(near[:MOST_TOLD])
-            parts.append(Part(1, self._say("next_near", parts=listed)))
-        return within(parts)
+            answer.append(Part(1, self._say("next_near", parts=listed)))
+        return within(answer)
 
     def _crossing(self, asked: Asked, found: Crossing, kind: Kind | None) -> str:
         """Yes or no first, then who, and when."""
