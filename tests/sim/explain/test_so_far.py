@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from functools import cache
+from random import Random
 
 import pytest
 
-from sim.actions import Add, Drive, SetMode
+from sim.actions import Drive, SetMode
 from sim.config import Config
 from sim.explain.expectation import Entry, expectation
 from sim.explain.question_error import QuestionError
@@ -17,7 +18,8 @@ from sim.perceive import sensor_named
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.transition import step
-from sim.types import Kind, Mode, Move, Outcome
+from sim.types import Mode, Move, Outcome
+from tests.support.two_egos import drawn
 
 SEEDS = range(14)
 VARIED = (
@@ -166,8 +168,8 @@ def test_unsafe_moves_are_those_held_back_or_made_into_what_was_seen() -> None:
 
 
 def test_with_several_autonomous_vehicles_it_is_not_told() -> None:
-    timeline = Timeline(Config(seed=4))
-    timeline.apply(1, [Add(kind=Kind.AV, count=1)])
+    state = drawn(Random(4), "rules")
+    timeline = Timeline(state.config, state)
     for _ in range(3):
         timeline.advance()
     with pytest.raises(QuestionError) as refused:
