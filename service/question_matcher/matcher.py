@@ -1,6 +1,6 @@
 """Matches a question that the grammar refused to a sentence that it understands.
 
-The kind of the question is found by two classifiers, of its words and of their order (`KindScores`); its
+The kind of the question is found by a classifier (`KindScores`); its
 slots are found by the lexicon. A match is a sentence of the grammar, which parses it: nothing but a question
 about the session can come of it, and the answer says as what it was read. A match is unsure where two kinds
 are near each other, or where a word occurs in no example.
@@ -9,7 +9,7 @@ are near each other, or where a word occurs in no example.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -21,7 +21,7 @@ from service.grammar.topic import ALONE
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
 from service.question_matcher.fillers import Fillers
 from service.question_matcher.follow_ups import FollowUps
-from service.question_matcher.kind_scores import KindScores, log_odds
+from service.question_matcher.kind_scores import KindScores
 from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, read_kinds
 from service.question_matcher.situations import Situation
 from service.question_matcher.slots import Question, SlotWords
@@ -29,12 +29,10 @@ from sim.actions import Pause, Reset
 
 NEAR = 1.5
 """Lead over another kind, in logarithms of odds, below which both are offered."""
-LEAST_SURE = 1.5
-"""Least certainty of what is answered at once: the logarithm of the odds that its answer is a right one."""
 LIKELY = 0.3
 """Least lead over what has no answer, for it to be asked about."""
 UNKNOWN_COST = 0.3
-"""What each unknown word takes from the lead."""
+"""What each unknown word takes from the certainty."""
 UNUSUAL = 1.5
 """What a kind loses that is mostly asked in other situations."""
 MOST_UNKNOWN = 4
@@ -125,8 +123,7 @@ class QuestionMatcher:
             ((score - UNUSUAL * (kind in unusual), kind) for kind, score in scores.items()),
             key=lambda each: (-each[0], each[1]),
         )
-        right = self._scores.right({kind: score for score, kind in order})
-        match = self._decided(question, order, right, UNKNOWN_COST * len(unknown))
+        match = self._decided(question, order, UNKNOWN_COST * len(unknown))
         if match is not None and match.sure and order[0][1] in unusual:
             # What is asked of a crash is hardly meant where there was none: it is offered, not answered.
             return Match(match.sentences, sure=False)
@@ -141,18 +138,11 @@ class QuestionMatcher:
         likeliest = max(scores, key=scores.__getitem__) == NONE_OF_THEM
         return likeliest and not self._holds_a_request(text)
 
-    def _decided(
-        self,
-        question: Question,
-        order: Sequence[tuple[float, str]],
-        right: Mapping[str, float],
-        cost: float,
-    ) -> Match | None:
-        """What the order of the kinds says, the likeliest first.
+    def _decided(self, question: Question, order: Sequence[tuple[float, str]], cost: float) -> Match | None:
+        """What the order of the kinds says, the likeliest first; `cost` is taken from their certainty.
 
-        `right` is the probability that the answer of a kind is a right one, `cost` what unknown words take
-        from its logarithm of odds. A kind that no sentence fits, since it leaves a slot out, is no rival of
-        one that is likelier; it is asked about where it is much the likeliest.
+        A kind that no sentence fits, since it leaves a slot out, is no rival of one that is likelier; it is
+        asked about where it is much the likeliest.
         """
         said = {name: self._kinds[name].sentence(question) for _, name in order}
         rivals = [(score, name) for score, name in order if said[name] or not self._kinds[name].says]
@@ -163,8 +153,10 @@ class QuestionMatcher:
                 return None
             said = {each: said[each] or self._kinds[each].offered(question) for each in said}
             rivals, best = list(order), likeliest
-        elif best == likeliest and (sentence := said[name]) and log_odds(right[name]) - cost >= LEAST_SURE:
-            return Match((sentence,), sure=True)
+        elif best == likeliest and (sentence := said[name]):
+            certainty = self._scores.certainties({each: score for score, each in order})[name]
+            if certainty - cost >= self._scores.least_sure:
+                return Match((sentence,), sure=True)
         offered = (said[each] for score, each in rivals if score >= max(floor, best - NEAR))
         near = tuple(dict.fromkeys(filter(None, offered)))[:MAX_CHOICES]
         return Match(near, sure=False) if near else None

@@ -28,10 +28,10 @@ class Weights:
     table: NDArray[np.int8]
     """[feature, kind], in steps of `step`; the last row is the bias"""
     step: float
+    sure: float
+    """least lead of a kind over the next one for it to be answered at once"""
     words: frozenset[str]
     """the words of the examples that have an answer"""
-    also: NDArray[np.int8]
-    """[kind, other]: how often the other's answer is right too where the kind's is the best, in 1/127"""
     sources: str
     """the digest of what it was learnt from"""
 
@@ -50,8 +50,8 @@ class Weights:
             features=np.array(sorted(self.rows, key=self.rows.__getitem__)),
             table=self.table,
             step=np.array(self.step),
+            sure=np.array(self.sure),
             words=np.array(sorted(self.words)),
-            also=self.also,
             sources=np.array(self.sources),
         )
 
@@ -65,7 +65,7 @@ class Weights:
                 rows={name: row for row, name in enumerate(features)},
                 table=data["table"],
                 step=float(data["step"]),
+                sure=float(data["sure"]),
                 words=frozenset(data["words"].tolist()),
-                also=data["also"],
                 sources=str(data["sources"]),
             )
