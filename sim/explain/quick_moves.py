@@ -113,5 +113,6 @@ class QuickMoves:
 
     def charges_without(self, names: Collection[str]) -> Weights:
         """The charges without those of these names that are wishes or settings."""
-        config = without(self._config, names)
-        return weights(config) if self._by_cost and config is not self._config else self._charges
+        if not any(name in names for name in self._factors):
+            return self._charges
+        return weights(without(self._config, names))
