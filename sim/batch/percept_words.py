@@ -88,10 +88,13 @@ def moves_of(
 
     Precondition: `is_compiled_for` with each of the charges, and no ways to see less than one.
     """
-    last = _last_word(percept, max(each.buffer for each in weights))
+    usual = weights[0]
+    alike = all([each is usual for each in weights])
+    last = _last_word(percept, usual.buffer if alike else max([each.buffer for each in weights]))
     seen = _seen_otherwise(percept, unlike, last)
     moves = np.empty(len(unlike), np.uint8)
-    charges = np.array([_row(each) for each in weights], np.int64)
+    rows = np.array([_row(usual)] if alike else [_row(each) for each in weights], np.int64)
+    charges = np.repeat(rows, len(unlike), 0) if alike else rows
     made_moves(seen, *_place(percept, limit), last, charges, moves)
     return [MOVES[move] for move in moves.tolist()]
 
