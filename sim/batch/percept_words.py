@@ -89,7 +89,7 @@ def moves_of(
     Precondition: `is_compiled_for` with each of the charges, and no ways to see less than one.
     """
     usual = weights[0]
-    alike = all([each is usual for each in weights])
+    alike = all(each is usual for each in weights)
     last = _last_word(percept, usual.buffer if alike else max([each.buffer for each in weights]))
     seen = _seen_otherwise(percept, unlike, last)
     moves = np.empty(len(unlike), np.uint8)
