@@ -10,8 +10,8 @@ Array arguments, besides those of `sim.batch.reachability` (words: those of a bo
 - `weights` (7; int64), a lane's row of `charges` (lanes, 7; int64): the charges of one step, see `TICK`;
 - `near` (2 + buffer, words; uint64): boards of the cells beside fixed hazards, of movers, and of the cells
   within 1, 2, ... cells of a mover;
-- `value`, `entering` (rows, columns + 2; int32): the cost to go from a cell, and that of entering it now; the
-  outer columns are `FAR`, the edges of the road;
+- `value` (rows, columns + 2; int32): the cost to go from a cell; the outer columns are `FAR`, the edges of
+  the road; `entering` (depth, rows, columns + 2; int32): that of entering it, of as many ticks as are kept;
 - `totals` (6; int32): the cost of each move now with the cheapest way on, in the order of `MOVES`;
 - `moves` (lanes; uint8), `costs` (lanes; int64): the answers.
 """
@@ -56,17 +56,18 @@ FAR: Final = np.int32(1 << 29)
 
 
 @compiled
-def make_scratch(words, rows, columns, most_ticks, buffer):
+def make_scratch(words, rows, columns, most_ticks, buffer, depth):
     """Room for decisions by cost of up to so many ticks, as `totals_of_way` takes it.
 
     `words`: those of a board, which are fewer than those of the road where only what is near matters.
+    `depth`: ticks of which the costs are kept: 1, or all of them (`most_ticks`) for `write_totals`.
     """
     return (
         np.empty((BOARDS, words), np.uint64),
         np.empty((most_ticks + 3, FIELDS, words), np.uint64),
         np.empty((2 + buffer, words), np.uint64),
         np.full((rows, columns + 2), FAR, np.int32),
-        np.full((rows, columns + 2), FAR, np.int32),
+        np.full((depth, rows, columns + 2), FAR, np.int32),
         np.full(6, FAR, np.int32),
     )
 
@@ -143,10 +144,10 @@ def sweep(scratch, horizon, cell, last, weights, size):
 
     `scratch` and `size`: as for `totals_of_way`.
     """
-    _, layers, near, value, entering, totals = scratch
+    _, layers, near, value, kept, _ = scratch
     columns, left_edge, right_edge = size
     rows_per_word = 64 // columns
-    start_row, start_column = cell // columns, cell % columns
+    start_row = cell // columns
     tick, side = np.int32(weights[TICK]), np.int32(weights[TICK] + weights[SIDEWAYS])
     slant, wait = np.int32(weights[TICK] + weights[DIAGONAL]), np.int32(weights[TICK] + weights[WAITING])
     value[: start_row + 1] = FAR
@@ -155,6 +156,7 @@ def sweep(scratch, horizon, cell, last, weights, size):
         first = max(0, start_row - ahead - 1)
         # From rows further back the goal is not reached within the horizon: there it costs `FAR`.
         furthest = min(start_row, horizon - ahead - 1)
+        entering = kept[ahead % kept.shape[0]]
         _charges(
             entering, near, layers, ahead, last, weights, first, furthest, columns, left_edge, right_edge
         )
@@ -180,14 +182,29 @@ def sweep(scratch, horizon, cell, last, weights, size):
                 to_right = FAR if cut_right >> at & _ONE else on[column + 1]
                 best = min(best, min(to_left, to_right) + slant)
                 into[column] = min(min(best, here[column] + wait), FAR)
-    w = start_row // rows_per_word
-    at = np.uint64(start_row % rows_per_word * columns + start_column)
-    cut_left, cut_right = crossings(layers, 0, start_row, columns)
+    write_totals(scratch, 0, cell, weights, columns)
+
+
+@compiled
+def write_totals(scratch, ahead, cell, weights, columns):
+    """Write the totals of the six moves from a cell, so many ticks after those of the sweep.
+
+    Later than at once of a way that the sweep has found only, and where its costs are kept (`make_scratch`).
+    """
+    _, layers, _, _, kept, totals = scratch
+    rows_per_word = 64 // columns
+    row, start_column = cell // columns, cell % columns
+    tick, side = np.int32(weights[TICK]), np.int32(weights[TICK] + weights[SIDEWAYS])
+    slant, wait = np.int32(weights[TICK] + weights[DIAGONAL]), np.int32(weights[TICK] + weights[WAITING])
+    entering = kept[ahead % kept.shape[0]]
+    w = row // rows_per_word
+    at = np.uint64(row % rows_per_word * columns + start_column)
+    cut_left, cut_right = crossings(layers, ahead, row, columns)
     aslant = np.uint64(start_column)
-    here, on, column = entering[start_row], entering[start_row - 1], start_column + 1
+    here, on, column = entering[row], entering[row - 1], start_column + 1
     totals[0] = on[column] + tick
-    totals[1] = FAR if layers[0, CAME_RIGHT, w] >> at & _ONE else here[column - 1] + side
-    totals[2] = FAR if layers[0, CAME_LEFT, w] >> at & _ONE else here[column + 1] + side
+    totals[1] = FAR if layers[ahead, CAME_RIGHT, w] >> at & _ONE else here[column - 1] + side
+    totals[2] = FAR if layers[ahead, CAME_LEFT, w] >> at & _ONE else here[column + 1] + side
     totals[3] = FAR if cut_left >> aslant & _ONE else on[column - 1] + slant
     totals[4] = FAR if cut_right >> aslant & _ONE else on[column + 1] + slant
     totals[5] = here[column] + wait
@@ -214,7 +231,7 @@ def totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, lim
 def weighted_moves(state, lanes, shares, charges, columns, rows, left_edge, right_edge, count, moves, costs):
     """For every lane the move of least cost to the goal and that cost (−1: no way)."""
     words = -(-rows // (64 // columns))
-    scratch = make_scratch(words, rows, columns, max_ticks(rows), charges[:, BUFFER].max())
+    scratch = make_scratch(words, rows, columns, max_ticks(rows), charges[:, BUFFER].max(), 1)
     now, layers = scratch[0], scratch[1]
     size = columns, left_edge, right_edge
     for lane in range(count):

@@ -160,7 +160,7 @@ def grow_futures(
     if planner == RULES:
         find_ways(ways, rows_now[:, RIGHT] | rows_now[:, LEFT], fixed, row + 1, columns, last_bit)
     if planner == BY_COST:
-        scratch, size = cost_scratch(rows, columns, max_ticks, weights)
+        scratch, size = cost_scratch(rows, columns, max_ticks, weights, 1)
     else:
         scratch, size = no_scratch()
     counts = np.zeros(3, np.int64)

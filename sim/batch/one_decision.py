@@ -137,7 +137,7 @@ def made_moves(
 
     Each is weighed by its own row of `weights`.
     """
-    scratch = make_scratch(seen.shape[2], rows, columns, max_ticks(rows), weights[:, BUFFER].max())
+    scratch = make_scratch(seen.shape[2], rows, columns, max_ticks(rows), weights[:, BUFFER].max(), 1)
     now, layers = scratch[0], scratch[1]
     size = columns, left_edge, right_edge
     row = cell // columns
@@ -179,7 +179,7 @@ def decided_totals(
 
     Returns −1 where a way leads to the goal.
     """
-    scratch = make_scratch(seen.shape[1], rows, columns, max_ticks(rows), weights[BUFFER])
+    scratch = make_scratch(seen.shape[1], rows, columns, max_ticks(rows), weights[BUFFER], 1)
     now, layers, totals = scratch[0], scratch[1], scratch[5]
     size = columns, left_edge, right_edge
     row = cell // columns

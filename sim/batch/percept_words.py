@@ -8,6 +8,7 @@ from functools import lru_cache
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.batch.layout import Layout
 from sim.batch.one_decision import decided_totals, made_moves
@@ -28,6 +29,8 @@ WORD_BITS: Final = 64
 MOST_COLUMNS: Final = WORD_BITS
 """Columns of the widest road that fits into words."""
 _WALKERS: Final = MARKED.index(Kind.PEDESTRIAN)
+_MANY: Final = 4
+"""Ways to see from which on they are put into words together."""
 
 
 def make_ready() -> None:
@@ -85,11 +88,13 @@ def moves_of(
 
     Precondition: `is_compiled_for` with each of the charges, and no ways to see less than one.
     """
-    last = _last_word(percept, max(each.buffer for each in weights))
-    words = b"".join([_words(percept, each, last) for each in unlike])
-    seen = np.frombuffer(bytearray(words), np.uint64).reshape(len(unlike), VEHICLE, last + 1)
+    usual = weights[0]
+    alike = all(each is usual for each in weights)
+    last = _last_word(percept, usual.buffer if alike else max([each.buffer for each in weights]))
+    seen = _seen_otherwise(percept, unlike, last)
     moves = np.empty(len(unlike), np.uint8)
-    charges = np.array([_row(each) for each in weights], np.int64)
+    rows = np.array([_row(usual)] if alike else [_row(each) for each in weights], np.int64)
+    charges = np.repeat(rows, len(unlike), 0) if alike else rows
     made_moves(seen, *_place(percept, limit), last, charges, moves)
     return [MOVES[move] for move in moves.tolist()]
 
@@ -101,10 +106,44 @@ def _last_word(percept: Percept, buffer: int) -> int:
     return row // Layout.of(road.columns, road.rows).rows_per_word
 
 
+def _seen_otherwise(percept: Percept, unlike: Sequence[Unlike], last: int) -> NDArray[np.uint64]:
+    """What is seen, each time otherwise (ways to see, 7, words up to the last)."""
+    shape = len(unlike), VEHICLE, last + 1
+    if len(unlike) < _MANY:
+        words = b"".join([_words(percept, each, last) for each in unlike])
+        return np.frombuffer(bytearray(words), np.uint64).reshape(shape)
+    boards = percept.boards
+    usual = (
+        percept.right,
+        percept.left,
+        boards.marked[_WALKERS],
+        boards.fixed,
+        boards.holding,
+        percept.yielding,
+        percept.attentive,
+    )
+    right, left, walkers, fixed, holding, yielding, attentive = _as_words(percept, usual, last)
+    gone, gone_fixed, barriers, potholes = (
+        _as_words(percept, [each[plane] for each in unlike], last) for plane in range(4)
+    )
+    stay, rest = ~gone, ~gone_fixed
+    seen = np.empty(shape, np.uint64)
+    seen[:, 0], seen[:, 1], seen[:, 2] = right & stay, left & stay, walkers & stay
+    seen[:, 3] = fixed & rest | barriers | potholes
+    seen[:, 4] = (seen[:, 0] | seen[:, 1]) & (holding & rest | potholes)
+    seen[:, 5], seen[:, 6] = yielding & stay, attentive & stay
+    return seen
+
+
+def _as_words(percept: Percept, boards: Sequence[int], last: int) -> NDArray[np.uint64]:
+    """The words up to the last of each of these boards."""
+    words = b"".join(_bytes_of(percept, boards, last))
+    return np.frombuffer(words, np.uint64).reshape(len(boards), last + 1)
+
+
 def _words(percept: Percept, unlike: Unlike, last: int) -> bytes:
     """What is seen, in the order of `NOW_RIGHT` without the vehicle: the words up to the last."""
-    road, boards = percept.road, percept.boards
-    size = Layout.of(road.columns, road.rows).rows_per_word * road.columns
+    boards = percept.boards
     stay, rest = ~unlike.movers, ~unlike.fixed
     right, left = percept.right & stay, percept.left & stay
     held = boards.holding & rest | unlike.potholes
@@ -117,11 +156,18 @@ def _words(percept: Percept, unlike: Unlike, last: int) -> bytes:
         percept.yielding & stay,
         percept.attentive & stay,
     )
+    return b"".join(_bytes_of(percept, seen, last))
+
+
+def _bytes_of(percept: Percept, boards: Sequence[int], last: int) -> list[bytes]:
+    """The words up to the last of boards, one after the other."""
+    columns = percept.road.columns
+    size = WORD_BITS // columns * columns
     if size == WORD_BITS:
         length, near = 8 * (last + 1), (1 << WORD_BITS * (last + 1)) - 1
-        return b"".join([(board & near).to_bytes(length, "little") for board in seen])
+        return [(board & near).to_bytes(length, "little") for board in boards]
     words, mask = range(last + 1), (1 << size) - 1
-    return b"".join([(board >> word * size & mask).to_bytes(8, "little") for board in seen for word in words])
+    return [(board >> word * size & mask).to_bytes(8, "little") for board in boards for word in words]
 
 
 @lru_cache(maxsize=64)

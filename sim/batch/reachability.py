@@ -361,6 +361,8 @@ def longest_survival(now, layers, rolled, last, columns, left_edge, right_edge):
                 ticks += 1
         if ticks > best_ticks:
             best, best_ticks = move, ticks
+        if best_ticks >= rolled:
+            break  # no move can last longer
     return best, best_ticks
 
 

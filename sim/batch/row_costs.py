@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from sim.batch.backward_dp import BUFFER, FAR, cheaper, make_scratch, totals_of_way
+from sim.batch.backward_dp import BUFFER, FAR, cheaper, make_scratch, totals_of_way, write_totals
 from sim.batch.reachability import (
     ALL_FIXED,
     BRAKES,
@@ -43,13 +43,13 @@ _ONE: Final = np.uint64(1)
 
 
 @compiled
-def cost_scratch(rows, columns, max_ticks, weights):
-    """Room for decisions by cost, and the size of a word."""
+def cost_scratch(rows, columns, max_ticks, weights, depth):
+    """Room for decisions by cost, and the size of a word; `depth`: as for `make_scratch`."""
     per_word = 64 // columns
     left_edge = _ZERO
     for row in range(per_word):
         left_edge |= _ONE << np.uint64(row * columns)
-    scratch = make_scratch(-(-rows // per_word), rows, columns, max_ticks, weights[BUFFER])
+    scratch = make_scratch(-(-rows // per_word), rows, columns, max_ticks, weights[BUFFER], depth)
     scratch[0][:] = _ZERO
     return scratch, (columns, left_edge, left_edge << np.uint64(columns - 1))
 
@@ -62,7 +62,7 @@ def no_scratch():
         np.empty((1, 1, 1), np.uint64),
         np.empty((1, 1), np.uint64),
         np.empty((1, 1), np.int32),
-        np.empty((1, 1), np.int32),
+        np.empty((1, 1, 1), np.int32),
         np.empty(1, np.int32),
     )
     return scratch, (1, _ONE, _ONE)
@@ -174,3 +174,19 @@ def cheapest_move(scratch, size, safe, cell, last_row, episode_tick, limit, swep
         elif least == FAR and kept_clear > lasted:
             move = np.intp(STAY)
     return move
+
+
+@compiled
+def has_plan(scratch):
+    """Whether a way was found by `cheapest_move`, before which the totals were `FAR`."""
+    return scratch[5].min() < FAR
+
+
+@compiled
+def planned_move(scratch, ahead, cell, weights, columns):
+    """The move of a cheapest way so many ticks after `cheapest_move`, where all has come as it foresaw.
+
+    It was made from there as it was told to, and nobody has reacted or does now.
+    """
+    write_totals(scratch, ahead, cell, weights, columns)
+    return np.argmin(scratch[5])

@@ -13,9 +13,18 @@ from typing import Final
 
 import numpy as np
 
-from sim.batch.backward_dp import BUFFER
+from sim.batch.backward_dp import BUFFER, FAR
 from sim.batch.compiled import followed_board, pedestrians_walk
-from sim.batch.row_costs import cheapest_move, cost_scratch, no_scratch, put_row, put_vehicle, safe_words
+from sim.batch.row_costs import (
+    cheapest_move,
+    cost_scratch,
+    has_plan,
+    no_scratch,
+    planned_move,
+    put_row,
+    put_vehicle,
+    safe_words,
+)
 from sim.batch.row_motion import (
     CAME_LEFT,
     CAME_RIGHT,
@@ -137,13 +146,16 @@ def drive_rows(rows_now, fixed, holes, place, cell, planner, weights, shares, ke
     if planner == RULES:
         find_ways(ways, rows_now[:, RIGHT] | rows_now[:, LEFT], fixed, count, columns, last_bit)
     if planner == BY_COST:
-        scratch, size = cost_scratch(count, columns, max_ticks, weights)
-        hopeful = _hopeful_from(rows_now, fixed, holes, place, cell // columns)
+        scratch, size = cost_scratch(count, columns, max_ticks, weights, 2 * count)
         safe = safe_words(rows_now[:, RIGHT] | rows_now[:, LEFT], fixed, columns, last_bit)
     else:
         scratch, size = no_scratch()
-        hopeful, safe = np.empty((1, 1), np.uint64), fixed
+        safe = fixed
     after = np.empty((count, 5), np.uint64)
+    planned = -1  # the tick at which the way was found that is being driven; none: −1
+    # Where the goal is out of reach is found out once no way is found: `since` that tick; before that: −1.
+    hopeful, since = np.empty((1, 1), np.uint64), -1
+    kept = scratch[4].shape[0]
     for ahead in range(most):
         tick = episode_tick + ahead
         row, column = cell // columns, cell % columns
@@ -165,7 +177,11 @@ def drive_rows(rows_now, fixed, holes, place, cell, planner, weights, shares, ke
         _move_rows(rows_now, after, fixed, holes, row, motion, tick, last_bit)
         on = after[row - 1]
         free = free_moves(bit, motion, braked, fixed[row], on, fixed[row - 1], swept, last_bit)
-        if planner == BY_COST:
+        braking = braked.came_right != motion.came_right or braked.came_left != motion.came_left
+        as_planned = planned >= 0 and ahead - planned < kept and not yields and not braking
+        if planner == BY_COST and as_planned:
+            move = np.int64(planned_move(scratch, ahead - planned, cell, weights, columns))
+        elif planner == BY_COST:
             last_row = min(row + max(1, weights[BUFFER]), count - 1)
             for each in range(last_row + 1):
                 now = rows_now[each]
@@ -180,11 +196,16 @@ def drive_rows(rows_now, fixed, holes, place, cell, planner, weights, shares, ke
                     holes[each],
                 )
             put_vehicle(scratch[0], cell, columns, yields, brakes)
-            hopeless = not hopeful[ahead, row] >> np.uint64(column) & _ONE
+            hopeless = since >= 0 and not hopeful[ahead - since, row] >> np.uint64(column) & _ONE
             limit = max_ticks + 1 - tick
+            scratch[5][:] = FAR
             move = np.int64(
                 cheapest_move(scratch, size, safe, cell, last_row, tick, limit, swept, weights, hopeless)
             )
+            planned = ahead if not braking and has_plan(scratch) else -1
+            if since < 0 and not has_plan(scratch):
+                now_place = columns, last_bit, tick, max_ticks, swept
+                hopeful, since = _hopeful_from(rows_now, fixed, holes, now_place, row), ahead
         else:
             move = made_move(planner, free, ways, row, column, columns, motion, on)
         end = cell

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from sim.decide import moves_where, next_belief
 from sim.ego import Ego
 from sim.explain.chances import Chances, chances
-from sim.explain.episode_rollout import is_driven_in_words, rollout, story
+from sim.explain.episode_rollout import driven_in_words, is_driven_in_words, rollout
 from sim.explain.stuck import is_stuck, shut_off
 from sim.fast_replace import field_setter
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
@@ -22,6 +22,7 @@ from sim.search.reactive import ImpatientError
 from sim.state import SimState
 from sim.transition import next_world, repeats_for_ever, transition
 from sim.types import Mode, Move, Outcome
+from sim.world import World
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,12 +106,7 @@ def _end(state: SimState, ego: str) -> Future | None:
     if state.ego(ego).mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING:
         return None
     if is_driven_in_words(state, ego):
-        told = story(state, ego=ego)
-        return Future(
-            told.outcome,
-            told.end - state.world.episode_start,
-            tuple(name for name in (told.cause.ids if told.cause else ()) if name != ego),
-        )
+        return _future(driven_in_words(state), ego)
     # With `repetition` the run itself ends there. Of several egos what repeats is not looked for.
     alone = len(state.world.avs) == 1
     recurs = alone and repeats_for_ever(state.config, state.ego().planner) and not state.config.repetition
@@ -132,5 +128,10 @@ def _end(state: SimState, ego: str) -> Future | None:
     world = last.world
     if world.outcome is Outcome.RUNNING:
         return None
-    ids = world.cause.ids if world.cause else ()
-    return Future(world.outcome, world.episode_tick, tuple(name for name in ids if name != ego))
+    return _future(world, ego)
+
+
+def _future(last: World, ego: str) -> Future:
+    """What the last world of an episode tells of its end."""
+    ids = last.cause.ids if last.cause else ()
+    return Future(last.outcome, last.episode_tick, tuple(name for name in ids if name != ego))

@@ -17,7 +17,7 @@ from sim.plan import Decision, traits_of
 from sim.state import SimState, StepResult
 from sim.transition import step
 from sim.types import Mode, Move, Outcome, kind_of
-from sim.world import Cause
+from sim.world import Cause, World
 from sim.world.grid import Road
 
 NEXT_TICKS: Final = 5
@@ -152,6 +152,11 @@ def is_driven_in_words(state: SimState, ego: str | None = None) -> bool:
     if not traits_of(config.planner).plans_to_goal:
         return True
     return (config.max_ticks + 1 - world.episode_tick) * work_of_tick(world.road) <= MAX_WORK
+
+
+def driven_in_words(state: SimState) -> World:
+    """The world at the end of a run, without its story. Precondition: `is_driven_in_words`."""
+    return step(compiled_drive(state).state).state.world
 
 
 def _compiled_story(state: SimState) -> EpisodeRollout:

@@ -21,6 +21,7 @@ from sim.search.costs import TICKS_ALONE, Weights, weights
 from sim.search.reachability import steps_left
 from sim.state import SimState
 from sim.types import Move
+from sim.world.grid import union
 
 
 class SeenOtherwise(NamedTuple):
@@ -65,6 +66,7 @@ class QuickMoves:
         self._limit = steps_left(config, percept.episode_tick)
         self._movers = {name: 1 << cell for cell, name in percept.movers.items()}
         self._fixed = {name: 1 << cell for cell, name in percept.hazards.items()}
+        self._all_movers, self._all_fixed = union(self._movers.values()), union(self._fixed.values())
         self._factors = factors(config)
         # What lies further behind than anything is kept clear of takes no part.
         rows = row + 1 + max(1, self._charges.buffer)
@@ -87,7 +89,9 @@ class QuickMoves:
 
     def _matters(self, change: SeenOtherwise) -> bool:
         """Whether anything is otherwise where it can have a part."""
-        return change.charges is not self._charges or any(board & self._near for board in change.unlike)
+        movers, fixed, barriers, potholes = change.unlike
+        seen = (movers | fixed | barriers | potholes) & self._near
+        return bool(seen) or change.charges is not self._charges
 
     def without(self, names: Collection[str]) -> SeenOtherwise | None:
         """What is seen without these; None where one of them is not known."""
@@ -104,14 +108,15 @@ class QuickMoves:
     def keeping(self, names: Collection[str]) -> SeenOtherwise:
         """What is seen with nothing but these."""
         movers = fixed = 0
-        for name, bit in self._movers.items():
-            movers |= 0 if name in names else bit
-        for name, bit in self._fixed.items():
-            fixed |= 0 if name in names else bit
+        for name in names:
+            movers |= self._movers.get(name, 0)
+            fixed |= self._fixed.get(name, 0)
         gone = [name for name in self._factors if name not in names]
-        return SeenOtherwise(Unlike(movers, fixed), self.charges_without(gone))
+        unlike = Unlike(self._all_movers & ~movers, self._all_fixed & ~fixed)
+        return SeenOtherwise(unlike, self.charges_without(gone))
 
     def charges_without(self, names: Collection[str]) -> Weights:
         """The charges without those of these names that are wishes or settings."""
-        config = without(self._config, names)
-        return weights(config) if self._by_cost and config is not self._config else self._charges
+        if not any(name in names for name in self._factors):
+            return self._charges
+        return weights(without(self._config, names))

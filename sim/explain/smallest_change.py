@@ -132,8 +132,10 @@ class ChangeSearch:
             return
         most = FIRST_TOGETHER
         while some := list(islice(changes, most)):
-            self._known.update(self._together.made(some))
-            yield from some
+            made = self._together.made(some)
+            self._known.update(made)
+            if len(made) < len(some) or self._foil in made.values():
+                yield from some
             most = min(MOST_TOGETHER, 2 * most)
 
     def _cut_down(self, fallback: Iterator[Edits], searched: int) -> SmallestChange:

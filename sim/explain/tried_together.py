@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from sim.actions import Add, WorldAction
+from sim.actions import Add, Prefer, Preference, WorldAction
 from sim.explain.edit import Edit, Edits
+from sim.explain.factors import without
 from sim.explain.intervention import Intervention
 from sim.explain.quick_moves import QuickMoves, SeenOtherwise
 from sim.search.compiled_costs import Unlike
-from sim.search.costs import Weights, weights
-from sim.session.edits import apply
+from sim.search.costs import Weights, weights_of
+from sim.session.settings import preferences_with
 from sim.types import Move
 
 
@@ -26,8 +27,7 @@ class TogetherTried:
         """`rerun`: the decision; `quick`: its `Intervention.quick`."""
         self._rerun = rerun
         self._quick = quick
-        self._unlike: dict[Edit, Unlike | None] = {}
-        self._wished: dict[Edits, Weights] = {}
+        self._unlike: dict[Edit, Unlike] = {}
         self._usual = quick.charges_without(())
 
     def made(self, changes: Iterable[Edits]) -> dict[frozenset[Edit], Move]:
@@ -42,19 +42,22 @@ class TogetherTried:
 
     def _said(self, edits: Edits) -> SeenOtherwise | None:
         movers = fixed = barriers = potholes = 0
+        wishes = []
         for edit in edits:
             if edit.of_wishes:
+                wishes.append(edit)
                 continue
-            if edit not in self._unlike:
-                self._unlike[edit] = self._of_edit(edit)
-            unlike = self._unlike[edit]
+            unlike = self._unlike.get(edit)
             if unlike is None:
-                return None
-            movers |= unlike.movers
-            fixed |= unlike.fixed
-            barriers |= unlike.barriers
-            potholes |= unlike.potholes
-        wishes = tuple([edit for edit in edits if edit.of_wishes])
+                unlike = self._of_edit(edit)
+                if unlike is None:
+                    return None
+                self._unlike[edit] = unlike
+            gone, gone_fixed, barred, holed = unlike
+            movers |= gone
+            fixed |= gone_fixed
+            barriers |= barred
+            potholes |= holed
         charges = self._with_wishes(wishes) if wishes else self._usual
         return SeenOtherwise(Unlike(movers, fixed, barriers, potholes), charges)
 
@@ -79,12 +82,13 @@ class TogetherTried:
             return Unlike(barriers=1 << cell)
         return Unlike(potholes=1 << cell) if action.kind == "pothole" and cell in percept.movers else None
 
-    def _with_wishes(self, edits: Edits) -> Weights:
+    def _with_wishes(self, edits: Sequence[Edit]) -> Weights:
         """The charges once wishes were taken back, then others said."""
-        if edits not in self._wished:
-            state = self._rerun.state
-            back = self._rerun.removal([edit.gone for edit in edits if edit.gone])
-            for action in (*back, *(action for edit in edits for action in edit.actions)):
-                state = apply(state, action).state
-            self._wished[edits] = weights(state.config_of(self._rerun.ego))
-        return self._wished[edits]
+        config = self._rerun.state.config
+        left = without(config, [edit.gone for edit in edits])
+        said = [action for edit in edits for action in edit.actions if isinstance(action, Prefer)]
+        again = left.preferences if left.preferences != config.preferences else ()
+        preferences: tuple[Preference, ...] = () if again else left.preferences
+        for wish in (*again, *(action.preference for action in said)):
+            preferences = preferences_with(preferences, wish)
+        return weights_of(config.rules, preferences, left.safety_buffer)

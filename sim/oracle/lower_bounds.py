@@ -15,8 +15,9 @@ from typing import Final
 from sim.forecast import Forecast
 from sim.oracle.other_egos import UndeterminedError, alone, arrives, check_others_stay, truth_for
 from sim.search.astar import cheapest
+from sim.search.compiled_costs import compiled_costs
 from sim.search.compiled_rows import compiled_least_ticks, rows_are_compiled_for
-from sim.search.costs import weights
+from sim.search.costs import TICKS_ALONE, weights
 from sim.search.reachability import flood_fill, reachability, shortest_plan, steps_left
 from sim.search.reactive import ReactiveSearch
 from sim.search.time_expanded import TimeExpandedGraph
@@ -57,7 +58,7 @@ def least_ticks(
     if state.world.outcome is not Outcome.RUNNING:
         return None
     forecast, limit = foreseen(state)
-    ticks = reachability(forecast, 1 << forecast.ego, limit).ticks
+    ticks = _ticks_without_reactions(forecast, limit)
     if _settled(state, ticks, forecast):
         return ticks
     bound = _bound(state, ticks, limit)
@@ -65,6 +66,14 @@ def least_ticks(
     if ticks is not None or _passable(forecast):
         quicker = _searched(state, forecast, patience, bound)
     return ticks if quicker is None and state.config.free_ways_hold else quicker
+
+
+def _ticks_without_reactions(forecast: Forecast, limit: int) -> int | None:
+    """The ticks of a quickest way where nobody brakes, by compiled words where these are loaded."""
+    found = None if forecast.percept.attentive else compiled_costs(forecast, TICKS_ALONE, limit)
+    if found is None:
+        return reachability(forecast, 1 << forecast.ego, limit).ticks
+    return min((total for total in found.totals if total is not None), default=None)
 
 
 def _searched(state: SimState, forecast: Forecast, patience: int | None, bound: int) -> int | None:

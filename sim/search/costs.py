@@ -77,11 +77,12 @@ TICKS_ALONE: Final = Weights(tick=1, sideways=0, diagonal=0, stay=0, fixed=0, mo
 
 def weights(config: Config) -> Weights:
     """The charges that a configuration asks for."""
-    return _weights(config.rules, config.preferences, config.safety_buffer)
+    return weights_of(config.rules, config.preferences, config.safety_buffer)
 
 
 @lru_cache(maxsize=256)
-def _weights(rules: int, preferences: tuple[Preference, ...], safety_buffer: int) -> Weights:
+def weights_of(rules: int, preferences: tuple[Preference, ...], safety_buffer: int) -> Weights:
+    """The charges by the version of the rules, the wishes and the buffer."""
     parts = (BALANCED[rules], *(SHIFTS[preference] for preference in preferences))
     return Weights(
         tick=sum(part.tick for part in parts),

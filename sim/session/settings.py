@@ -92,11 +92,16 @@ def change_setting(config: Config, action: Set | Adjust) -> Config:
 
 def add_preference(config: Config, wish: Wish) -> Config:
     """The configuration with one more preference, the latest last; `balanced` clears them."""
+    return config.with_parts(preferences=preferences_with(config.preferences, wish))
+
+
+def preferences_with(preferences: tuple[Preference, ...], wish: Wish) -> tuple[Preference, ...]:
+    """The preferences with one more, the latest last; `balanced` clears them."""
     if wish == "balanced":
-        return config.with_parts(preferences=())
+        return ()
     opposite: dict[Preference, Preference] = {"fastest": "cautious", "cautious": "fastest"}
-    kept = [other for other in config.preferences if other not in (wish, opposite.get(wish))]
-    return config.with_parts(preferences=(*kept, wish))
+    kept = [other for other in preferences if other not in (wish, opposite.get(wish))]
+    return (*kept, wish)
 
 
 def vehicles_for(config: Config) -> int:
