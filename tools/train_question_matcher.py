@@ -6,8 +6,9 @@
 Softmax regression with an L2 penalty, by L-BFGS, over the features of a question and the sum of its
 words' vectors: WordLlama's, which are made of the parts of a word. Scores are linear in both, so that each
 word's share of the vectors is added to its own weights: a word that no example has gets its weights from its
-neighbours, and no vector is needed to match. Letters in a row (four) count as well: they are what words of other endings and compounds have in
-common. Prints how often the kind of an example is found by weights that were learnt without it.
+neighbours, and no vector is needed to match. Letters in a row (four) count as well: they are what words of
+other endings and compounds have in common. Prints how often the kind of an example is found by weights that
+were learnt without it.
 """
 
 from __future__ import annotations

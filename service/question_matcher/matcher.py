@@ -33,7 +33,7 @@ LIKELY = 0.3
 """Least lead over what has no answer, for it to be asked about."""
 UNKNOWN_COST = 0.3
 """What each unknown word takes from the certainty."""
-UNUSUAL = 1.5
+UNUSUAL = 1.0
 """What a kind loses that is mostly asked in other situations."""
 MOST_UNKNOWN = 4
 MIN_LETTERS = 4
