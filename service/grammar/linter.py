@@ -45,7 +45,6 @@ ENGINE_CONCEPTS = frozenset(
         "had_been",
         "scenario_name_end",
         "would_have",
-        "polite",
         FROM_RIGHT,
         BEGINS_NEGATION,
         FROM,

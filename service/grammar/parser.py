@@ -12,8 +12,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from service.actions import Action, Advise, Ask, Chat, Evaluate, EvaluationTalk, FindWorst, load
-from service.actions.goals import Goal
+from service.actions import Action, Ask, load
 from service.grammar.asking import Asking, once
 from service.grammar.clause import Clause, Divided
 from service.grammar.contradictions import contradiction
@@ -24,7 +23,6 @@ from service.grammar.order import orders
 from service.grammar.parse_types import (
     Correction,
     Parse,
-    Refused,
     Understood,
 )
 from service.grammar.paths import ALLOWS, SEPARATOR
@@ -33,7 +31,6 @@ from service.grammar.references import add_referents
 from service.grammar.refusing import is_impossible
 from service.grammar.same_sentence import asked_of_it, beside_what_is_named, named_before
 from service.grammar.seconds_in_ticks import count_seconds_in_ticks, steps_in_seconds
-from service.grammar.sentences import Unsayable
 from service.grammar.shared_place import place_for_all
 from service.grammar.small_talk import same_again, small_talk
 from service.grammar.spoken_tick import name_spoken_tick
@@ -54,14 +51,6 @@ def content_of(lattice: Lattice) -> frozenset[str]:
         for edge in lattice.all()
         if edge.sense.concept not in (GLUE, SEPARATOR, QUANTITY, ALLOWS)
     )
-
-
-ASKS = "?"
-_WISHES = ("v.", "want", "there_be", "mode_may", "undo", "redo", "reset", "resume")
-"""What a request begins with that may end in a question mark: "could we have rain?"."""
-POLITE = "polite"
-MOST_BARE = 4
-"""Words with which runs are no question yet: "100 runs?"."""
 
 
 class Reading(Asking):
@@ -118,12 +107,6 @@ class Reading(Asking):
             return self._refusal("not_understood", message, (phrase,))
         if self._topic.removed and clauses[0].leans:
             return self._more_of_what(actions) if asking else self._refuse([self._plain], ())
-        if (
-            self._tokens[-1].text == ASKS
-            and not self._is_a_wish(clauses)
-            and all(map(self._changes, actions))
-        ):
-            return self._refuse_bare(actions, asking=asking)
         if (asked := asked_of_it(self._lattice, clauses)) is not None:
             meant = self._put_in_place(*asked)
             if meant is not None and self._explains(meant):
@@ -134,31 +117,6 @@ class Reading(Asking):
         return Understood(
             self._text, actions, (*self._corrections, *self._stand_ins(actions)), supposes, spans
         )
-
-    def _is_a_wish(self, clauses: Sequence[Clause]) -> bool:
-        """Whether a word says that something is to be done; else things and values are named alone."""
-        slots = (edge for clause in clauses for edge in clause.filled.slots)
-        polite = any(edge.concept == POLITE for edge in self._lattice.all())
-        return polite or any(edge.sense.concept.startswith(_WISHES) for edge in slots)
-
-    def _changes(self, action: Action) -> bool:
-        """Whether an action changes something, and is neither a question nor talk.
-
-        A question may be how often something happens in many runs; it has some words.
-        """
-        if isinstance(action, Evaluate):
-            return len(self._tokens) <= MOST_BARE
-        return not isinstance(action, Ask | Chat | Advise | EvaluationTalk | Goal | FindWorst)
-
-    def _refuse_bare(self, actions: tuple[Action, ...], *, asking: bool) -> Parse:
-        """The refusal of a few words with a question mark, which may ask or wish: "rain?", "left?"."""
-        phrase = self._plain.strip()
-        message = self._messages["not_understood"].format(phrases=f'"{phrase}"')
-        try:
-            wish = (self._language.sentence(actions),) if asking else ()
-        except Unsayable:
-            wish = ()
-        return Refused(self._text, "not_understood", message, (phrase,), (), wish)
 
     def _stand_ins(self, actions: Sequence[Action]) -> Iterator[Correction]:
         """Words for things there are none of, where others are put on the road in their place."""

@@ -33,7 +33,7 @@ BESIDE = "beside"
 OFFERED_KINDS: tuple[PlaceableKind, ...] = ("vehicle", "barrier")
 """Of these the nearest is offered where nothing was spoken of."""
 
-MAX_ALONE = 4
+MAX_ALONE = 8
 """So many words with a question mark are no request."""
 
 
