@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import cast, get_args
 
-from service.actions import Action
+from service.actions import Action, Evaluate
 from service.actions.table import traits_of
 from service.grammar.answer_words import FOLLOWS, NO
 from service.grammar.engine import Language
@@ -34,7 +34,9 @@ OFFERED_KINDS: tuple[PlaceableKind, ...] = ("vehicle", "barrier")
 """Of these the nearest is offered where nothing was spoken of."""
 
 MAX_ALONE = 8
-"""So many words with a question mark are no request."""
+"""So many words with a question mark and no verb are no request."""
+MAX_RUNS_ALONE = 4
+"""The same of runs: more words ask how often something happens in so many."""
 
 
 def ask_which_it(language: Language, text: str, topic: Topic, parsed: Understood) -> Ambiguous | None:
@@ -83,7 +85,8 @@ def _things_meant(action: Action, topic: Topic) -> list[Action]:
 
 def ask_whether(language: Language, text: str, topic: Topic, parsed: Understood) -> Ambiguous | None:
     """The question whether a word alone with a question mark is a request: "left?"."""
-    if not all(traits_of(each).undo_step for each in parsed.actions):
+    runs = any(isinstance(each, Evaluate) for each in parsed.actions)
+    if not all(traits_of(each).undo_step or isinstance(each, Evaluate) for each in parsed.actions):
         return None
     tokens = tokenise(normalise(text), language.data.contractions)
     if text.rstrip().endswith("?"):
@@ -93,7 +96,8 @@ def ask_whether(language: Language, text: str, topic: Topic, parsed: Understood)
     follows = language.data.answers.beginning(tokens, FOLLOWS)
     joined = follows > 0 and tokens[0].text in language.joiners
     asked = bool(topic.actions) and all(traits_of(each).is_question for each in topic.actions)
-    if len([token for token in tokens if token.text.isalnum()]) - follows > MAX_ALONE or (
+    most = MAX_RUNS_ALONE if runs else MAX_ALONE
+    if len([token for token in tokens if token.text.isalnum()]) - follows > most or (
         follows and not joined and not asked
     ):
         return None

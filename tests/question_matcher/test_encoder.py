@@ -11,7 +11,8 @@ import pytest
 from service.question_matcher import encoder
 from service.question_matcher.encoder import HEADS, Encoder, write
 from service.question_matcher.kind_scores import KindScores
-from service.question_matcher.kinds import NONE_OF_THEM
+from service.question_matcher.kinds import NONE_OF_THEM, read_kinds
+from service.question_matcher.situations import led
 from service.question_matcher.weights import FILE, Weights
 from service.question_matcher.word_pieces import word_pieces
 from service.resources import prompts_folder
@@ -69,7 +70,9 @@ def small(path: Path) -> dict[str, np.ndarray]:
     for name in ("pieces", "0", "0.attended", "1", "1.attended"):
         for part in ("scale", "bias"):
             vectors[f"{name}.norm.{part}"] = draw.normal(1, 0.1, WIDTH).astype(np.float16).astype(np.float32)
-    write(path, matrices, vectors, PIECES, KINDS, "digest")
+    also = np.eye(len(KINDS))
+    also[0, 1] = 0.5
+    write(path, matrices, vectors, PIECES, KINDS, also, ["why", "not"], "digest")
     with np.load(path) as data:
         exact = {name: data[name] * data[f"{name}.steps"][:, None].astype(float) for name in matrices}
     return exact | vectors
@@ -135,32 +138,50 @@ def test_scores_are_those_of_a_slow_twin(tmp_path: Path, text: str):
     found = Encoder.read(tmp_path / "small.npz")
     assert found.scores(text) == pytest.approx(twin(numbers, word_pieces(text, ROWS, 64)), abs=2e-4)
     assert (found.kinds, found.sources) == (tuple(KINDS), "digest")
+    assert found.words == {"why", "not"}
 
 
-def test_classifiers_of_other_kinds_are_refused(tmp_path: Path):
-    (tmp_path / FILE).write_bytes((FOLDER / FILE).read_bytes())
-    small(tmp_path / encoder.FILE)
-    with pytest.raises(ValueError, match="other kinds"):
-        KindScores.read(tmp_path)
-
-
-def test_without_an_encoder_words_alone_tell_the_kind(tmp_path: Path):
-    (tmp_path / FILE).write_bytes((FOLDER / FILE).read_bytes())
-    words = ("why", "did", "you", "stop")
-    scores = KindScores.read(tmp_path).of("why did you stop", words)
+def test_without_an_encoder_words_alone_tell_the_kind():
+    folder = prompts_folder() / "questions" / "de"
+    words = ("warum", "hast", "du", "angehalten")
+    scores = KindScores.read(folder).of("warum hast du angehalten", words)
     assert sum(map(math.exp, scores.values())) == pytest.approx(1)
-    by_words = Weights.read(FOLDER / FILE)
+    by_words = Weights.read(folder / FILE)
     assert max(scores, key=scores.__getitem__) == by_words.kinds[int(by_words.scores(words).argmax())]
+
+
+def test_an_answer_is_as_certain_as_all_kinds_that_it_answers(tmp_path: Path):
+    small(tmp_path / encoder.FILE)
+    scores = {"why": math.log(0.6), "when": math.log(0.3), "other": math.log(0.1)}
+    certainties = KindScores.read(tmp_path).certainties(scores)
+    half = round(0.5 * 127) / 127
+    right = {"why": 0.6, "when": 0.3 + half * 0.6, "other": 0.1}
+    for kind, certainty in certainties.items():
+        assert certainty == pytest.approx(math.log(right[kind] / (1 - right[kind])))
+
+
+def test_a_question_is_read_after_its_situation(tmp_path: Path):
+    assert led("why not?", ()) == "why not?"
+    assert led("why not?", ("crash",)) == "crashed: why not?"
+    assert led("why not?", ("running", "manual")) == "by hand: why not?"
+    small(tmp_path / encoder.FILE)
+    classifier = KindScores.read(tmp_path)
+    alone, crashed = classifier.of("why not", ()), classifier.of("why not", (), ("crash",))
+    assert alone != crashed
 
 
 def test_the_encoder_is_of_the_present_examples():
     found = Encoder.read(FOLDER / encoder.FILE)
     assert found.sources == sources_of(FOLDER), "run tools.train_question_encoder"
-    assert found.kinds == Weights.read(FOLDER / FILE).kinds
+    assert found.kinds == tuple(read_kinds(FOLDER))
 
 
 def test_what_people_asked_is_found_again():
     found = Encoder.read(FOLDER / encoder.FILE)
-    asked = [each for each in asked_of(FOLDER) if each[1] != (NONE_OF_THEM,)][::20]
-    right = sum(found.kinds[int(found.scores(text).argmax())] in kinds for text, kinds in asked)
+    asked = [each for each in asked_of(FOLDER) if each.kinds != (NONE_OF_THEM,)][::40]
+    told = ((each, () if each.situation is None else (each.situation,)) for each in asked)
+    right = sum(
+        found.kinds[int(found.scores(led(each.text, situations)).argmax())] in each.kinds
+        for each, situations in told
+    )
     assert right > 0.85 * len(asked)
