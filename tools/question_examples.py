@@ -1,4 +1,4 @@
-"""The examples that the question matcher's two classifiers are learnt from, and their digest."""
+"""The examples that the question matcher's classifiers are learnt from, and their digest."""
 
 from __future__ import annotations
 
