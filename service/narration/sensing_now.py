@@ -169,7 +169,7 @@ class SensingNow:
         elif AGREE in words:
             told = [right, missed, alarms]
         else:
-            told = [self._yes(found.right < found.ticks), right, missed, alarms]
+            told = [self._yes(found.right < found.ticks), missed, alarms, right]
         return within(Part(at, text) for at, text in enumerate(told)), facts
 
     def _alarms(self, found: SensingErrors) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.contract.encode.explanation import explanation_json
-from service.narration.answer_length import most_words
+from service.narration.answer_length import MOST_WORDS, most_words
 from service.narration.answerer import Json, not_so, plain
 from service.narration.crash import Crashes
 from service.narration.explanation import Explained
@@ -14,7 +14,7 @@ from service.sessions.facts import Asked
 from sim.explain import QuestionError, why, why_not
 from sim.explain.crash import led_to_crash
 from sim.explain.effort import Effort
-from sim.types import Move
+from sim.types import Move, Outcome
 
 
 class Whys:
@@ -53,9 +53,21 @@ class Whys:
             most=most_words(asked.length),
             now=timeline.tick if ask.tick is None else None,
         )
+        text = self._with_end(text, asked, explanation.decision.move)
         return plain(self._sayings, ask, timeline.state, text) | explanation_json(
             explanation, self._options.texts(explanation.decision)
         )
+
+    def _with_end(self, text: str, asked: Asked, move: Move) -> str:
+        """A text, and what the move led to where the drive ended by it; not where that makes it too long."""
+        ask, world = asked.ask, asked.timeline.state.world
+        end = ""
+        if ask.about == "why_not" and led_to_crash(asked.timeline, ask.tick):
+            end = self._sayings.say("why", "ended_in_crash")
+        elif ask.tick is None and move is Move.STAY and world.outcome is Outcome.STUCK:
+            end = self._sayings.say("why", "ended_stuck")
+        told = f"{text} {end}" if end else text
+        return text if len(told.split()) > MOST_WORDS else told
 
     def _paused(self, asked: Asked) -> str:
         """That the clock stands, where it is asked why it stopped and no stop of the drive is the reason."""

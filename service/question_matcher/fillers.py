@@ -18,6 +18,8 @@ from service.yaml_files import read_yaml
 FILE = "fillers.yaml"
 MAX_TRIED = 8
 """Readings of one text: each is parsed."""
+LEAST_WORDS = 4
+"""Words of a sentence that does not lean on the one before: "how come?" does."""
 MAX_SINGLE = 4
 """Fillers up to which each is also left out alone."""
 _SENTENCE = re.compile(r"(?<=[.!?;:\n])\s+|\s+[-\u2013\u2014]+\s+")
@@ -34,11 +36,12 @@ class Fillers:
     def without(self, text: str) -> tuple[str, ...]:
         """The text with fewer and fewer of its fillers, and its last sentence alone; never the text itself.
 
-        A sentence that supposes something is not left out: what is asked depends on it.
+        A sentence that asks or supposes something is not left out, nor one before a few words that lean on it.
         """
         found = [*self._shorter(text)]
         *before, last = [each for each in _SENTENCE.split(text.strip()) if each.strip()] or [""]
-        if before and not any(self._supposes(each) for each in before):
+        whole = len(re.findall(r"\w+", last)) >= LEAST_WORDS
+        if before and whole and not any(each.endswith("?") or self._supposes(each) for each in before):
             found += [last, *self._shorter(last)]
         return tuple(dict.fromkeys(each for each in found if each and each != text))[:MAX_TRIED]
 

@@ -12,6 +12,8 @@ from service.question_matcher.situations import Situation
 from service.question_matcher.slots import Question
 from service.yaml_files import read_yaml
 
+_MARKS = {"weather_noun": "weather", "bad_weather": "weather"}
+"""The marks of slots that are other words for the same."""
 NONE_OF_THEM = "other"
 """The kind of examples that no answer is for."""
 
@@ -33,7 +35,8 @@ class Canonical:
     def of(cls, text: str, forms: Collection[str] = ()) -> Canonical:
         """From a text such as "why not {going}?"; `forms`: the slots that are forms of a move."""
         slots = frozenset(name for _, name, _, _ in string.Formatter().parse(text) if name)
-        return cls(text, slots, frozenset("move" if slot in forms else slot for slot in slots))
+        marks = (_MARKS.get(slot, "move" if slot in forms else slot) for slot in slots)
+        return cls(text, slots, frozenset(marks))
 
     def shares(self, question: Question) -> frozenset[str]:
         """The slots that a question names as this sentence does."""
@@ -51,6 +54,8 @@ class QuestionKind:
     """the situation in which it is mostly asked"""
     unless: frozenset[str] = frozenset()
     """words that turn it round, such as "not": a question that has one is not of this kind"""
+    with_words: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    """sentences that ask it where a question has one of some words: "ghosts" asks for false alarms first"""
 
     def naming(self, taken_apart: Callable[[str], Question]) -> QuestionKind:
         """The same kind, whose sentences know what their own words name; `taken_apart` finds that."""
@@ -63,6 +68,9 @@ class QuestionKind:
         """The sentence that uses all binding slots but the ignored ones; None where none does."""
         if not self.unless.isdisjoint(question.words):
             return None
+        for said, words in self.with_words.items():
+            if not words.isdisjoint(question.words):
+                return said
         binding = question.binding - self.ignores
         fits = (
             each
@@ -93,6 +101,7 @@ def read_kinds(folder: Path) -> dict[str, QuestionKind]:
             frozenset(entry.get("ignores", ())),
             entry.get("when"),
             frozenset(entry.get("unless", ())),
+            {said: frozenset(words) for said, words in entry.get("with_words", {}).items()},
         )
         for name, entry in data.items()
     }

@@ -169,10 +169,18 @@ class SlotWords:
                 continue
             value = str(edge.sense.value)
             if mark == "weather":
-                value = self._data["weathers"].get(value, value)
-            elif mark in ("planner", "sensor"):
+                yield _Span(edge.start, edge.end, mark, self._weather(value))
+                continue
+            if mark in ("planner", "sensor"):
                 value = _text(tokens, edge.start, edge.end)
             yield _Span(edge.start, edge.end, mark, {mark: value})
+
+    def _weather(self, value: str) -> dict[str, str]:
+        """The words for a weather or a time of day: how it is, what it is, and how it is if that hampers."""
+        said = self._data["weathers"].get(value, value)
+        noun = self._data.get("weather_nouns", {}).get(value, said)
+        hampers = {} if value in self._data.get("hampers_nothing", ()) else {"bad_weather": said}
+        return {"weather": said, "weather_noun": noun, **hampers}
 
     def _is_no_planner(self, tokens: Sequence[Token], edge: Edge) -> bool:
         """Whether words that may name a planner are meant as such only after others: "rules"."""
@@ -247,7 +255,10 @@ class SlotWords:
                 if end < len(tokens) and tokens[end].text in self._data["elsewhere"]:
                     yield _Span(edge.start, end + 1, "elsewhere", {})
                 else:
-                    yield _Span(edge.start, end, "side", {"side": _text(tokens, edge.start, edge.end)})
+                    side = _text(tokens, edge.start, edge.end)
+                    yield _Span(
+                        edge.start, end, "side", {"side": self._data.get("said_of", {}).get(side, side)}
+                    )
             elif edge.concept == "dir" and opening not in self._data["sides"]:
                 value = str(edge.sense.value)
                 if self._data["moves"].keys() - {FORWARD, STAY} >= {value} and self._is_a_move(

@@ -41,3 +41,11 @@ def test_a_word_that_turns_a_question_stays(word: str) -> None:
     shorter = FILLERS["en"].without(f"honestly, what could you do {word} here ok")
     assert shorter
     assert all(word in each.split() for each in shorter)
+
+
+@pytest.mark.parametrize(
+    "text", ["Does fog hurt the lidar most? Numbers, please.", "The grid shows the cell as free. How come?"]
+)
+def test_a_few_words_are_not_read_without_the_sentence_that_they_lean_on(text: str) -> None:
+    start = text.split()[0]
+    assert all(each.startswith(start) for each in FILLERS["en"].without(text))

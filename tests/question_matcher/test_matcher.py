@@ -37,6 +37,8 @@ SLOTS = {
 THINGS = {
     "en": {
         "weather": "foggy",
+        "weather_noun": "fog",
+        "bad_weather": "foggy",
         "thing": "the car on the left",
         "things": "cars",
         "nearest": "the nearest car",
@@ -45,6 +47,8 @@ THINGS = {
     },
     "de": {
         "weather": "Nebel",
+        "weather_noun": "Nebel",
+        "bad_weather": "Nebel",
         "thing": "das Auto links",
         "things": "Autos",
         "nearest": "das nächste Auto",
@@ -76,7 +80,7 @@ def test_canonical_sentences_are_questions(code, move):
     slots = {**SLOTS, **THINGS[code], **moves[move], "instead": moves["right"]["going"]}
     said = 0
     for kind in read_kinds(folder).values():
-        for canonical in kind.says:
+        for canonical in (*kind.says, *map(Canonical.of, kind.with_words)):
             if canonical.slots <= slots.keys():
                 sentence = canonical.text.format_map(slots)
                 parse = language.parse(sentence)
@@ -253,3 +257,22 @@ def test_what_a_sentence_names_itself_is_not_left_out(language: Language) -> Non
     kind = QuestionKind("night", (Canonical.of("does darkness affect the lidar?"),)).naming(words.question)
     assert kind.sentence(words.question("can the lidar see in the dark at all?")) is not None
     assert kind.sentence(words.question("can the radar see in the dark at all?")) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("have you had any false alarms in this drive, ghosts and so on?", "were there any false alarms?"),
+        ("has your sensor got anything wrong on the way?", "has the sensor got anything wrong?"),
+    ],
+)
+def test_some_words_choose_the_sentence_of_a_kind(text: str, sentence: str, language: Language) -> None:
+    kind = read_kinds(FOLDER)["sensor_errors"]
+    assert kind.sentence(SlotWords(language, FOLDER).question(text)) == sentence
+
+
+def test_what_hampers_is_told_from_what_does_not(language: Language) -> None:
+    words, kind = SlotWords(language, FOLDER), read_kinds(FOLDER)["what_if_cleared"]
+    assert kind.sentence(words.question("would it have gone better without the fog?")) is not None
+    dry = kind.sentence(words.question("if it had been clear, would we still have crashed?"))
+    assert dry == "what if it were clear?"
