@@ -171,6 +171,8 @@ class Ask:
             )
         if self.about in ("outlook", "what_if") and (self.lane is None) is (self.what in _OF_A_LANE):
             raise ValueError("of a lane it is asked why it is not taken, and what if it had been driven in")
+        if self.what == "stays_free" and self.move not in _BESIDE_OR_AHEAD:
+            raise ValueError("the space ahead, on the left or on the right stays free")
         if self.about == "sight":
             self._check_sight()
         if self.about == "what_if" and (self.kind is None) is (self.what in get_args(ScaleName)):
@@ -237,7 +239,7 @@ class Ask:
             raise ValueError("say 'count' or 'kind'")
         if self.what == "sighted" and self.want == "list":
             raise ValueError("of what was detected the first or the last is told, or whether")
-        if self.which is not None and (self.what != "sighted" or self.kind is not None):
+        if self.which is not None and (self.what not in _OF_A_THING or self.kind is not None):
             raise ValueError("'which' is of what was detected, and says its kind")
         if self.what == "ended" and self.metric not in ("crashes", "successes"):
             raise ValueError("ends are crashes or successes")
@@ -278,6 +280,10 @@ _ASK_KEYS = tuple(each.name for each in fields(Ask) if each.name not in ("do", "
 _BESIDE_WHAT = ("move", "tick", "until", "ticks", "seconds", "planners", "planner")
 """Keys that some values of `what` need, and others must not have."""
 
+_BESIDE_OR_AHEAD = (Move.FORWARD, Move.LEFT, Move.RIGHT)
+"""The moves into whose cells it is asked whether they stay free."""
+_OF_A_THING = ("sighted", "last_detected", "places_before")
+"""What of the past is asked of one thing."""
 _OF_A_SENSOR = ("weathers", "sensor_fault", "effect", "range", "detection", "would_see", "by_device")
 """What of sensing may be asked of one sensor."""
 _OF_A_KIND = ("detection", "belief", "would_see", "first_device")

@@ -65,6 +65,13 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
                 "started",
                 "hand_since",
                 "unsafe_moves",
+                "last_detected",
+                "least_ttc",
+                "smoothness",
+                "reversals",
+                "nearest_goal",
+                "here_since",
+                "not_advanced",
             ),
         )
     },

@@ -60,6 +60,9 @@ OutlookName = Literal[
     "worst",
     "lane",
     "liable",
+    "others_next",
+    "stays_free",
+    "place_then",
 ]
 """What of the time ahead is asked about.
 
@@ -70,7 +73,10 @@ OutlookName = Literal[
 go, or those of a kind; `crossing`: which of them come into the lane ahead of the vehicle;
 `gaps`: what the next rows of barriers leave free;
 `danger`: what is most dangerous now, of all or of a kind; `worst`: what may come at worst in some ticks;
-`lane`: why it does not take a lane, and what would come of that; `liable`: whose a crash would be now.
+`lane`: why it does not take a lane, and what would come of that; `liable`: whose a crash would be now;
+`others_next`: what the others do in the very next tick, or those of a kind; `stays_free`: for how many ticks
+the space ahead or beside stays free; `place_then`: in which lane and row the vehicle will be, or was, at a
+tick or after some.
 """
 BlameName = Literal[
     "fault",
@@ -186,6 +192,16 @@ HistoryName = Literal[
     "trouble",
     "explained",
     "unsafe_moves",
+    "last_detected",
+    "places_before",
+    "least_ttc",
+    "smoothness",
+    "reversals",
+    "nearest_goal",
+    "here_since",
+    "not_advanced",
+    "story",
+    "mishaps",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -211,6 +227,12 @@ began; `hand_since`: since when a person drives, and which of its moves were hel
 got stuck; `knowable`: when it could have been known that no way was left;
 `influence`: whether others braked or turned because of it; `trouble`: what its moves hung on most;
 `explained`: the last moves, each with its reason; `unsafe_moves`: moves of a person that the rules forbid.
+`explained`: the last moves, each with its reason; `last_detected`: how long ago what is believed was last
+detected, the oldest by default; `places_before`: where a thing was in the last ticks, or what was hit before
+the crash; `least_ttc`: the least time to collision; `smoothness`: lane changes, stops and turns to the other
+side for its way; `reversals`: whether it went left and right by turns; `nearest_goal`: whether it was ever
+nearer to the goal; `here_since`: since when it is in this cell and this lane; `not_advanced`: the ticks
+in which it came no row ahead; `story`: what happened, in order; `mishaps`: what went wrong, in order.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""
@@ -531,7 +553,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     ),
     "pattern": QuestionTraits(("move", "tick", "until"), runs_episodes=True),
     "outlook": QuestionTraits(
-        ("what", "move", "ticks", "seconds", "kind", "lane"), ("what",), runs_episodes=True
+        ("what", "move", "tick", "ticks", "seconds", "kind", "lane"), ("what",), runs_episodes=True
     ),
     "blame": QuestionTraits(("what", "tick"), ("what",), runs_episodes=True),
     "planners": QuestionTraits(
@@ -545,7 +567,7 @@ QUESTIONS: Mapping[QuestionName, QuestionTraits] = {
     "world": QuestionTraits(("what",), ("what",), runs_episodes=True),
 }
 
-OF_OTHERS: Final = ("others", "crossing")
+OF_OTHERS: Final = ("others", "crossing", "others_next")
 """What of the time ahead may be asked of other road users of one kind."""
 OF_A_KIND: Final = (*OF_OTHERS, "danger")
 """What of the time ahead may be asked of things of one kind."""
@@ -589,6 +611,8 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     **dict.fromkeys(("gaps", "danger", "lane", "liable"), (frozenset(),)),
     "worst": (frozenset(), frozenset(("ticks",)), frozenset(("seconds",))),
     **dict.fromkeys(OF_OTHERS, (frozenset(),)),
+    "stays_free": (frozenset(("move",)), frozenset(("move", "ticks")), frozenset(("move", "seconds"))),
+    "place_then": (frozenset(("tick",)), frozenset(("ticks",)), frozenset(("seconds",))),
     "coming": (frozenset(("ticks",)), frozenset(("seconds",))),
     "detour": (frozenset(), frozenset(("move",))),
     **dict.fromkeys(get_args(PolicyName), (frozenset(), frozenset(("tick",)))),
@@ -677,6 +701,12 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
         (frozenset(),),
     ),
     "explained": (frozenset(), frozenset(("ticks",))),
+    "places_before": (frozenset(), frozenset(("ticks",))),
+    **dict.fromkeys(("last_detected", "least_ttc", "smoothness", "reversals"), (frozenset(),)),
+    **dict.fromkeys(
+        ("nearest_goal", "here_since", "not_advanced", "story", "mishaps"),
+        (frozenset(),),
+    ),
     **dict.fromkeys(("end", "stuck_cause", "knowable", "influence", "trouble"), (frozenset(),)),
     "unsafe_moves": (frozenset(),),
     "needed": tuple(

@@ -241,6 +241,12 @@ def _questions() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "history", "what": "explained", "ticks": 5}
     for what in ("stuck_cause", "knowable", "influence", "trouble", "explained", "unsafe_moves"):
         yield {"do": "ask", "about": "history", "what": what}
+    for what in ("last_detected", "places_before", "least_ttc", "smoothness", "reversals", "nearest_goal"):
+        yield {"do": "ask", "about": "history", "what": what}
+    for what in ("here_since", "not_advanced", "story", "mishaps"):
+        yield {"do": "ask", "about": "history", "what": what}
+    for ticks in (1, 3):
+        yield {"do": "ask", "about": "history", "what": "places_before", "ticks": ticks}
     for want in ("first", "last", "share"):
         yield {"do": "ask", "about": "history", "what": "sighted", "want": want}
     for want in ("first", "whether"):
@@ -294,12 +300,16 @@ def _counted() -> Iterator[dict[str, Any]]:
     yield asked | {"what": "closest_call", "tick": 5, "until": 20}
 
 
+_NAMING_MORE = ("lane", "stays_free", "place_then")
+"""What of the time ahead is not asked without a lane, a move or a tick."""
+
+
 def _ahead_and_back() -> Iterator[dict[str, Any]]:
     for move in Move:
         yield {"do": "ask", "about": "outlook", "what": "safe", "move": move}
     for about in ("outlook", "blame", "planners", "sight", "world"):
         for what in WHATS[about]:
-            if what not in ("safe", "coming", "difference", "detection", "parting", "lane"):
+            if what not in ("safe", "coming", "difference", "detection", "parting", *_NAMING_MORE):
                 yield {"do": "ask", "about": about, "what": what}
     yield {"do": "ask", "about": "sight", "what": "detection", "kind": "pedestrian"}
     yield {"do": "ask", "about": "sight", "what": "belief", "kind": "pothole"}
@@ -308,6 +318,12 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "outlook", "what": "crossing", "kind": "pedestrian"}
     yield {"do": "ask", "about": "outlook", "what": "danger", "kind": "vehicle"}
     yield {"do": "ask", "about": "outlook", "what": "lane", "lane": 3}
+    yield {"do": "ask", "about": "outlook", "what": "others_next", "kind": "pedestrian"}
+    for move in ("left", "right", "forward"):
+        for then in ({}, {"ticks": 3}, {"seconds": 2.5}):
+            yield {"do": "ask", "about": "outlook", "what": "stays_free", "move": move, **then}
+    for then in ({"ticks": 3}, {"seconds": 2.5}, {"tick": 15}):
+        yield {"do": "ask", "about": "outlook", "what": "place_then", **then}
     yield {"do": "ask", "about": "outlook", "what": "worst", "ticks": 3}
     yield {"do": "ask", "about": "outlook", "what": "worst", "seconds": 2.5}
     yield {"do": "ask", "about": "outlook", "what": "coming", "ticks": 3}

@@ -38,6 +38,8 @@ from service.narration.device_facts import DeviceFacts
 from service.narration.drive_counts import DriveCounts
 from service.narration.drive_end import DriveEnds
 from service.narration.drive_figures import DriveFigures
+from service.narration.drive_story import DriveStories
+from service.narration.drive_track import DriveTracks
 from service.narration.expectations import Expectations
 from service.narration.facts import Facts
 from service.narration.glossary import Glossary
@@ -85,9 +87,11 @@ from service.narration.sightings import PastSightings
 from service.narration.single_factors import SingleFactorsTold
 from service.narration.so_far import DrivesSoFar
 from service.narration.soon import Soon
+from service.narration.space_ahead import SpaceAhead
 from service.narration.status import Help, Status
 from service.narration.stretches import Stretches
 from service.narration.talk import OpenQuestion, RecentChanges
+from service.narration.things_traced import ThingsTraced
 from service.narration.unsafe_moves import UnsafeMovesTold
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
@@ -148,6 +152,12 @@ class Answers:
             DriveEnds(sayings): ("end",),
             CloseCalls(sayings): ("near_misses", "move_risk"),
             DriveFigures(sayings): ("average_speed", "way_share", "best_time", "straight_line", "started"),
+            DriveTracks(sayings): (
+                *("smoothness", "reversals", "nearest_goal", "here_since", "not_advanced", "least_ttc"),
+            ),
+            DriveStories(sayings): ("story", "mishaps"),
+            ThingsTraced(sayings): ("last_detected", "places_before"),
+            SpaceAhead(sayings): ("stays_free", "place_then"),
             LostWays(sayings): ("stuck_cause", "knowable"),
             Influences(sayings): ("influence", "trouble"),
             MoveReasons(sayings): ("explained",),

@@ -11,7 +11,14 @@ from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
-from sim.explain.others_ahead import CROSSING_ROWS, Crossing, OthersAhead, crossing, others_ahead
+from sim.explain.others_ahead import (
+    CROSSING_ROWS,
+    Crossing,
+    OthersAhead,
+    crossing,
+    others_ahead,
+    others_next,
+)
 from sim.rules.mover_boards import PERIODS
 from sim.types import PLACEABLE, Kind, Move
 
@@ -20,7 +27,7 @@ MOST_TOLD = 3
 
 
 class AllOthers:
-    """Answers to "what are the other cars doing?" and "is anyone about to cross in front of me?"."""
+    """Answers to "what are the others doing?", "which change lanes next?", "is anyone about to cross?"."""
 
     def __init__(self, sayings: Sayings) -> None:
         """`sayings`: the language's."""
@@ -34,6 +41,9 @@ class AllOthers:
             if ask.what == "others":
                 others = others_ahead(timeline, kind)
                 text, facts = self._others(others, kind), others_json(others)
+            elif ask.what == "others_next":
+                others = others_next(timeline, kind)
+                text, facts = self._next(others, kind), others_json(others)
             else:
                 found = crossing(timeline, kind)
                 text, facts = self._crossing(asked, found, kind), crossing_json(found)
@@ -61,6 +71,35 @@ class AllOthers:
             things = self._sayings.joined([self._sayings.things(each, 2) for each in kinds])
             return self._say("none", things=things)
         return within([*told, Part(1, self._say("measure"))])
+
+    def _next(self, found: OthersAhead, kind: Kind | None) -> str:
+        """How many of each kind go to each side in the next tick, and who of the nearest does."""
+        if kind is not None and kind not in PERIODS:
+            return self._say("never_move", things=self._sayings.things(kind, 2))
+        kinds = [each for each in PLACEABLE if each in PERIODS and kind in (None, each)]
+        told = []
+        for each in kinds:
+            ways = [way for thing, way in found.ways if thing.kind is each]
+            if not ways:
+                continue
+            counts = [(key, ways.count(move)) for key, move in _WAYS.items() if move in ways]
+            parts = self._sayings.joined([self._say("next_ways", key, count=count) for key, count in counts])
+            things = self._sayings.things(each, len(ways))
+            told.append(self._say("next_of", count=len(ways), things=things, parts=parts))
+        if not told:
+            things = self._sayings.joined([self._sayings.things(each, 2) for each in kinds])
+            return self._say("none", things=things)
+        naming = Naming(self._sayings, found.state, as_seen=False)
+        near = [
+            self._say("next_one", "left" if way is Move.LEFT else "right", who=naming.thing(thing.id))
+            for thing, way in found.ways
+            if way is not Move.STAY
+        ]
+        answer = [Part(0, self._say("next", parts="; ".join(told)))]
+        if near:
+            listed = self._sayings.joined(near[:MOST_TOLD])
+            answer.append(Part(1, self._say("next_near", parts=listed)))
+        return within(answer)
 
     def _crossing(self, asked: Asked, found: Crossing, kind: Kind | None) -> str:
         """Yes or no first, then who, and when."""

@@ -16,7 +16,7 @@ LANE: Final = "lane"
 """Before `left`, `right` or `own`: the lane beside the ego, or its own."""
 LANES: Final = "lanes"
 """Before what is asked of all lanes: `free`, `taken`, `best`, `emptiest`,
-`with` things of a kind, `beside` the ego, or
+`with` things of a kind, `fullest` of them, where they stand `densest`, `beside` the ego, or
 `sides`."""
 SIDES: Final = "sides"
 """Before the side on which more is supposed, or `both`."""

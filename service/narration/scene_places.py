@@ -26,6 +26,8 @@ _SIDES: Final[Mapping[str, Holds]] = {
 }
 _MOST_NEAREST: Final = 3
 """Of the nearest, where several are asked for."""
+_STRETCH: Final = 3
+"""Rows of a stretch in which things are counted for where they stand densest."""
 _MOST_ROWS: Final = 5
 """Rows that are named where things of a kind stand."""
 
@@ -164,6 +166,8 @@ class ScenePlaces:
                 return self._say("lanes_without", things=noun)
             count = self._told.count(len(things))
             return self._say("lanes_with", lanes=self._numbers(lanes), count=count, things=noun)
+        if asked in ("fullest", "densest"):
+            return self._fullest(kind, rows_first=asked == "densest")
         room = {lane: self._room(lane) for lane in range(1, self._columns + 1)}
         if asked == "beside":
             return self._next_to(room)
@@ -178,6 +182,36 @@ class ScenePlaces:
             told = [Part(0, self._say("lanes_none_free"))] if asked == "free" else []
             told.append(Part(0, self._most_room(room)))
         return within([*told, Part(1, self._say("lanes_change", own=self._own))])
+
+    def _fullest(self, kind: Kind | None, *, rows_first: bool) -> str:
+        """The lanes with the most things of a kind, and the rows ahead in which they stand densest."""
+        things = self._scene.of(kind)
+        noun = self._say("any_thing") if kind is None else self._told.noun(kind, 2)
+        if not things:
+            return self._say("none", things=noun)
+        counts = Counter(self._own + thing.lanes for thing in things)
+        most = max(counts.values())
+        lanes = self._numbers(sorted(lane for lane, count in counts.items() if count == most))
+        by_lane = self._say("lanes_fullest", lanes=lanes, count=most, total=len(things), things=noun)
+        ahead = Counter(thing.rows for thing in things if thing.rows > 0)
+        if not ahead:
+            by_row = self._say("rows_none", things=noun)
+        else:
+            sums = {
+                row: sum(ahead[row + more] for more in range(_STRETCH)) for row in range(1, max(ahead) + 1)
+            }
+            first = max(sums, key=lambda row: (sums[row], -row))
+            last = max(row for row in range(first, first + _STRETCH) if ahead[row])
+            first = min(row for row in range(first, first + _STRETCH) if ahead[row])
+            by_row = self._say(
+                "rows_densest",
+                "one" if first == last else "many",
+                first=self._told.number(first * self._cell_m),
+                last=self._told.number(last * self._cell_m),
+                count=sum(ahead[row] for row in range(first, last + 1)),
+                things=noun,
+            )
+        return f"{by_row} {by_lane}" if rows_first else f"{by_lane} {by_row}"
 
     def _emptiest(self, room: Mapping[int, tuple[bool, Detection | None]]) -> str:
         """The lanes with the fewest things level with the ego or ahead, then those with most room ahead."""

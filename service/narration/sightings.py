@@ -100,7 +100,7 @@ class PastSightings:
     def _one(self, asked: Asked, found: Sightings) -> str:
         """Since when a thing is detected, where it was then, and whether it was lost in between."""
         timeline = asked.timeline
-        id = self._meant(asked)
+        id = thing_meant(asked)
         each = found.find(id)
         if each is None:
             return self._say("one", "gone", id=id)
@@ -197,18 +197,18 @@ class PastSightings:
     def _faithful(self, timeline: Timeline) -> str:
         return self._say("faithful") if sensor_named(timeline.state.config.sensor).faithful else ""
 
-    @staticmethod
-    def _meant(asked: Asked) -> str:
-        """The id of the thing that is meant, where it is now. Raises `EditError`."""
-        which = asked.ask.which
-        assert which is not None
-        if which.id is not None:
-            return which.id
-        parts = {name: getattr(which, name) for name in Where.__dataclass_fields__}
-        return pick_things(asked.timeline.state, str(which.kind), 1, Where(**parts))[0].id
-
     def _seconds(self, ticks: int, timeline: Timeline) -> str:
         return in_seconds(self._sayings, ticks, timeline.state.config)
 
     def _say(self, *keys: str, **parts: Any) -> str:
         return self._sayings.say("sightings", *keys, **parts)
+
+
+def thing_meant(asked: Asked) -> str:
+    """The id of the thing that is meant, where it is now. Raises `EditError`."""
+    which = asked.ask.which
+    assert which is not None
+    if which.id is not None:
+        return which.id
+    parts = {name: getattr(which, name) for name in Where.__dataclass_fields__}
+    return pick_things(asked.timeline.state, str(which.kind), 1, Where(**parts))[0].id

@@ -164,6 +164,50 @@ class Futures:
             ends[end] = ends.get(end, 0.0) + 1.0
         return ends
 
+    def places(self, within: int) -> tuple[dict[int | None, float], int | None]:
+        """The chance of each cell that the ego is in after so many ticks; None: it has ended before.
+
+        Beside them how many futures were drawn, or None where all were walked and the chances are exact.
+        """
+        layer: dict[int, tuple[Node, float]] = {id(self._root): (self._root, 1.0)}
+        found: dict[int | None, float] = {}
+        for _ in range(within):
+            after: dict[int, tuple[Node, float]] = {}
+            for node, mass in layer.values():
+                if self.branched and self.work >= WALK_SHARE * self._limit:
+                    return self._places_drawn(within)
+                for chance, then in self._after(node):
+                    if then.state.world.outcome is not Outcome.RUNNING:
+                        found[None] = found.get(None, 0.0) + mass * chance
+                        continue
+                    _, before = after.get(id(then), (then, 0.0))
+                    after[id(then)] = then, before + mass * chance
+            layer = after
+        for node, mass in layer.values():
+            cell = node.state.world.avs[self._number]
+            found[cell] = found.get(cell, 0.0) + mass
+        return found, None
+
+    def _places_drawn(self, within: int) -> tuple[dict[int | None, float], int]:
+        world = self.start.world
+        stream = Stream.of(self.start.config.seed, "confidence", world.episode, world.episode_tick)
+        counts: dict[int | None, int] = {}
+        limit = self.work + (1.0 - WALK_SHARE) * self._limit
+        for number in range(MAX_FUTURES):
+            if self.work >= limit and counts:
+                break
+            node, draws = self._root, stream.narrow(number)
+            cell: int | None = world.avs[self._number]
+            for draw in range(within):
+                node = _pick(self._after(node), draws.uniform(draw))
+                cell = node.state.world.avs[self._number]
+                if node.state.world.outcome is not Outcome.RUNNING:
+                    cell = None
+                    break
+            counts[cell] = counts.get(cell, 0) + 1
+        total = sum(counts.values())
+        return {each: count / total for each, count in counts.items()}, total
+
     @property
     def _limit(self) -> int:
         return self._traits.decisions_per_answer if self.most is None else self.most

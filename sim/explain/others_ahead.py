@@ -63,6 +63,25 @@ def others_ahead(timeline: Timeline, kind: Kind | None) -> OthersAhead:
     return OthersAhead(state, tuple((each, steps[each.id]) for each in movers))
 
 
+def others_next(timeline: Timeline, kind: Kind | None) -> OthersAhead:
+    """What those of a kind, or all, do in the very next tick, the nearest to the ego first.
+
+    What is drawn for that tick is known by now. Raises `QuestionError`: `result_stood`, `no_answer`.
+    """
+    state = _running(timeline)
+    column, row = state.world.road.cell(state.world.av)
+    after = next(_driven_on(state, 1), None)
+    if after is None:
+        raise QuestionError("no_answer", planner=state.config_of(None).planner, fault="timeout")
+    ways = []
+    for each in _movers(state, kind):
+        then = after.world.find(each.id)
+        across = 0 if then is None else then.cell[0] - each.cell[0]
+        ways.append((each, Move.STAY if not across else Move.RIGHT if across > 0 else Move.LEFT))
+    ways.sort(key=lambda way: (max(abs(way[0].cell[0] - column), abs(way[0].cell[1] - row)), way[0].id))
+    return OthersAhead(state, tuple(ways))
+
+
 def crossing(timeline: Timeline, kind: Kind | None) -> Crossing:
     """Who of a kind, or of all, comes into the lane that the ego is in now, within the next ticks.
 
