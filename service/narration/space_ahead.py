@@ -13,7 +13,7 @@ from sim.explain.foresight import Foresight
 from sim.explain.place_then import PlaceThen, place_then
 from sim.explain.question_error import QuestionError
 from sim.explain.stays_free import StaysFree, stays_free
-from sim.types import Move
+from sim.types import Mode, Move
 
 OWN_REFUSALS = ("no_lane_there", "too_far_ahead")
 """Refusals whose words stand among those of the space ahead."""
@@ -37,6 +37,8 @@ class SpaceAhead:
                 tick = timeline.tick + (self._ticks(asked) or 1) if ask.tick is None else ask.tick
                 place = place_then(timeline, tick)
                 text, facts = self._place(place, asked), _place_json(place)
+                if not place.past and timeline.state.mode is Mode.MANUAL:
+                    text = f"{self._sayings.say('ahead', 'by_hand')} {text}"
         except QuestionError as error:
             if error.code in OWN_REFUSALS:
                 side = str(error.facts.get("move", "forward"))
