@@ -109,3 +109,11 @@ def test_where_it_will_be_while_a_person_drives_is_told_of_the_planner() -> None
     assert answer["text"].startswith("You are driving; suppose I take over now.")
     past = told(timeline, "en", about="outlook", what="place_then", tick=1)
     assert past["text"].startswith("At tick 1")
+
+
+def test_a_drive_that_ends_at_the_very_tick_is_not_over_before_it() -> None:
+    timeline = Timeline(Config(columns=3, rows=6, vehicles=0, pedestrians=0, potholes=0))
+    answer = told(timeline, "en", about="outlook", what="place_then", tick=5)
+    assert answer["lane"] is None
+    assert "by tick 5 I arrive" in str(answer["text"])
+    assert told(timeline, "en", about="outlook", what="place_then", tick=4)["row"] == 1
