@@ -38,6 +38,8 @@ DEAR = 0.12
 """The share of drives of which each dear kind is asked."""
 DEAR_S = 0.4
 """CPU seconds from which on a kind is dear."""
+OF_BEFORE = "Of the drive before"
+"""What an answer begins with that is about the drive before: the present one has just begun."""
 SLOTS: dict[str, tuple[str, ...]] = {
     "planner": ("Dijkstra", "A*", "the rules", "BFS"),
     "planner_too": ("A*", "BFS"),
@@ -108,7 +110,7 @@ def judged(record: Record, draw: random.Random, costs: Counter[str], kinds: froz
             spent = time.process_time() - started
             costs[kind] = max(costs[kind], spent)  # type: ignore[assignment]
             yield f"form of {kind}", next((f"{each} | {told.question} {told.text}" for each in formal(told)), None)
-            if kind in JUDGES:
+            if kind in JUDGES and not told.text.startswith(OF_BEFORE):
                 wrong = list(JUDGES[kind](told))
                 yield kind, f"{'; '.join(wrong)} | {told.question} {told.text}" if wrong else None
         except Exception:

@@ -11,7 +11,7 @@ from sim.types import Kind
 from tests.support.recorded_drives import Record
 
 MOST_WORDS = 60
-HOLLOW = re.compile(r"[{}]|\bNone\b(?!:| of)|\bTrue\b|\bFalse\b|\bnan\b|\binf\b|\b\w+_\w+\b")
+HOLLOW = re.compile(r"[{}]|(?<!^)(?<![.!?:] )\bNone\b|(?<!^)(?<![.!?:] )\b(?:True|False)\b|\bnan\b|\binf\b|\b\w+_\w+\b")
 ONE_OF_MANY = re.compile(
     r"(?<![\d.,/^])\b1 (?:of them were|more (?:ticks|moves)|"
     r"(?:ticks|moves|rows|lanes|cars|vehicles|pedestrians|potholes|barriers|things|stops|cells|roads|drives|"

@@ -259,7 +259,7 @@ def stops(told: Told) -> Iterator[str]:
             yield f"longest {said}"
         else:
             yield from near("took", said[1], told.record.seconds(most), 0.051)
-    elif told.kind == "stopped_ever" and not named:
+    elif told.kind == "stopped_ever" and not named and told.record.driven:
         yield from differ("ever", told.yes, bool(found))
     elif told.kind in ("stops", "last_stop") and not named and found:
         said = told.between(r"^I stopped (?:once|(\d+) times), for (\d+(?:\.\d+)?) s")
