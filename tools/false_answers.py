@@ -97,7 +97,9 @@ def told_of(record: Record, kind: str, sentence: str, draw: random.Random) -> To
     return Told(record, kind, question, parsed.supposes, _narrator().answer(asked), slots)
 
 
-def judged(record: Record, draw: random.Random, costs: Counter[str], kinds: frozenset[str] | None) -> Iterator[tuple[str, str | None]]:
+def judged(
+    record: Record, draw: random.Random, costs: Counter[str], kinds: frozenset[str] | None
+) -> Iterator[tuple[str, str | None]]:
     """Each answer about a drive: its kind, and what is wrong; None where nothing is."""
     for kind, sentence in sentences(kinds):
         if kinds is None and costs[kind] > DEAR_S and draw.random() > DEAR:
@@ -109,7 +111,10 @@ def judged(record: Record, draw: random.Random, costs: Counter[str], kinds: froz
                 continue
             spent = time.process_time() - started
             costs[kind] = max(costs[kind], spent)  # type: ignore[assignment]
-            yield f"form of {kind}", next((f"{each} | {told.question} {told.text}" for each in formal(told)), None)
+            yield (
+                f"form of {kind}",
+                next((f"{each} | {told.question} {told.text}" for each in formal(told)), None),
+            )
             if kind in JUDGES and not told.text.startswith(OF_BEFORE):
                 wrong = list(JUDGES[kind](told))
                 yield kind, f"{'; '.join(wrong)} | {told.question} {told.text}" if wrong else None
@@ -117,7 +122,9 @@ def judged(record: Record, draw: random.Random, costs: Counter[str], kinds: froz
             yield f"form of {kind}", f"{sentence}: {traceback.format_exc(limit=-4)}"
 
 
-def count(drives: int, seed: int, kinds: frozenset[str] | None = None, seconds: float = 1e9) -> tuple[Counter[str], Counter[str], list[str]]:
+def count(
+    drives: int, seed: int, kinds: frozenset[str] | None = None, seconds: float = 1e9
+) -> tuple[Counter[str], Counter[str], list[str]]:
     """Answers that were judged and false ones, by kind, and a line for each false one."""
     looked, false, lines = Counter[str](), Counter[str](), []
     draw, costs, end = random.Random(seed), Counter[str](), time.monotonic() + seconds
@@ -128,7 +135,9 @@ def count(drives: int, seed: int, kinds: frozenset[str] | None = None, seconds: 
             looked[kind] += 1
             if wrong is not None:
                 false[kind] += 1
-                lines.append(f"{kind} | drive {number} of seed {seed}, tick {record.timeline.tick}, {record.outcome}, {record.config.planner}, {record.config.sensor}: {wrong}")
+                lines.append(
+                    f"{kind} | drive {number} of seed {seed}, tick {record.timeline.tick}, {record.outcome}, {record.config.planner}, {record.config.sensor}: {wrong}"
+                )
         looked["drives"] += 1
     return looked, false, lines
 
@@ -156,7 +165,9 @@ def main() -> int:
         if false[kind] or not kind.startswith("form of "):
             print(f"{kind:<30}{false[kind]:>6} of {looked[kind]}")
     forms = [kind for kind in looked if kind.startswith("form of ")]
-    print(f"form: {sum(false[kind] for kind in forms)} of {sum(looked[kind] for kind in forms)} in {len(forms)} kinds")
+    print(
+        f"form: {sum(false[kind] for kind in forms)} of {sum(looked[kind] for kind in forms)} in {len(forms)} kinds"
+    )
     if options.results is not None:
         with options.results.open("a", encoding="utf-8") as file:
             file.write(json.dumps([options.seed, looked, false, lines]) + "\n")

@@ -70,7 +70,9 @@ class SpaceAhead:
             told = self._say("free", key, where=where, who=naming.thing(found.taken_now), **words)
             after = found.frees_after
             key = "never" if after is None else "frees"
-            more = self._say("free", key, seconds=seconds(after or found.ticks), ticks=self._counted(after or found.ticks))
+            more = self._say(
+                "free", key, seconds=seconds(after or found.ticks), ticks=self._counted(after or found.ticks)
+            )
             return within([Part(0, told), Part(0, more)])
         facts = {"where": where, "seconds": seconds(found.free_for), "ticks": self._counted(found.free_for)}
         if found.stays:

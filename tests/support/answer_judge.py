@@ -11,7 +11,9 @@ from sim.types import Kind
 from tests.support.recorded_drives import Record
 
 MOST_WORDS = 60
-HOLLOW = re.compile(r"[{}]|(?<!^)(?<![.!?:] )\bNone\b|(?<!^)(?<![.!?:] )\b(?:True|False)\b|\bnan\b|\binf\b|\b\w+_\w+\b")
+HOLLOW = re.compile(
+    r"[{}]|(?<!^)(?<![.!?:] )\bNone\b|(?<!^)(?<![.!?:] )\b(?:True|False)\b|\bnan\b|\binf\b|\b\w+_\w+\b"
+)
 ONE_OF_MANY = re.compile(
     r"(?<![\d.,/^])\b1 (?:of them were|more (?:ticks|moves)|"
     r"(?:ticks|moves|rows|lanes|cars|vehicles|pedestrians|potholes|barriers|things|stops|cells|roads|drives|"
@@ -91,16 +93,21 @@ def formal(told: Told) -> Iterator[str]:
         yield f"hollow: {found[0]}"
     if found := ONE_OF_MANY.search(text):
         yield f"one of many: {found[0]}"
-    if not text or text != text.strip() or "  " in text or text[-1] not in ".!?)\"”":
+    if not text or text != text.strip() or "  " in text or text[-1] not in '.!?)"”':
         yield "no sentence"
     if re.search(r"\.\.|,,|: :|\s[,.;:](?:\s|$)|\( | \)|\(\)", text):
         yield "punctuation"
 
 
-KINDS_CALLED = {"car": Kind.VEHICLE, "pedestrian": Kind.PEDESTRIAN, "pothole": Kind.POTHOLE, "barrier": Kind.BARRIER}
+KINDS_CALLED = {
+    "car": Kind.VEHICLE,
+    "pedestrian": Kind.PEDESTRIAN,
+    "pothole": Kind.POTHOLE,
+    "barrier": Kind.BARRIER,
+}
 """Words of a question that name a kind."""
-LONG = frozenset(("help", "weathers_list", "term"))
-"""Kinds of which an answer may be longer."""
+LONG = frozenset(("help", "settings_list", "styles_list", "explained"))
+"""Kinds of which an answer may be longer: lists of all there is, and several answers at once."""
 
 
 def differ(what: str, told: Any, found: Any) -> Iterator[str]:

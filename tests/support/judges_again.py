@@ -18,7 +18,12 @@ from tests.support.answer_judge import Judge, Told, differ, listed, near
 from tests.support.judges_of_drives import misses, moves_of
 from tests.support.recorded_drives import Record
 
-ENDS = {Outcome.SUCCESS: "success", Outcome.CRASH: "crash", Outcome.STUCK: "stuck", Outcome.RUNNING: "running"}
+ENDS = {
+    Outcome.SUCCESS: "success",
+    Outcome.CRASH: "crash",
+    Outcome.STUCK: "stuck",
+    Outcome.RUNNING: "running",
+}
 PLANNERS = {"Dijkstra": "dijkstra", "A*": "astar", "the rules": "rules", "BFS": "bfs"}
 WEATHERS = {"foggy": "fog", "rainy": "rain"}
 MOST = 400
@@ -43,7 +48,9 @@ def again(record: Record, **other: Any) -> Timeline:
     return timeline
 
 
-def onward(record: Record, move: Move | None = None, ticks: int = MOST, *, first: Move | None = None) -> Timeline:
+def onward(
+    record: Record, move: Move | None = None, ticks: int = MOST, *, first: Move | None = None
+) -> Timeline:
     """The session driven on by its planner, or with one move in every tick; `first`: one before that."""
     timeline = record.timeline.copy()
     timeline.apply(9_000, [SetMode(mode=Mode.AUTO)] if move is None else [SetMode(mode=Mode.MANUAL)])
@@ -103,7 +110,11 @@ def stays_free(told: Told) -> Iterator[str]:
     if config.mover_behaviour.draws(config):
         return
     column, row = record.state.world.road.cell(record.state.world.av)
-    cells = {(column, row - 1)} if move is Move.FORWARD else {(column + move.offset[0], row), (column + move.offset[0], row - 1)}
+    cells = (
+        {(column, row - 1)}
+        if move is Move.FORWARD
+        else {(column + move.offset[0], row), (column + move.offset[0], row - 1)}
+    )
 
     def taken(state: Any) -> bool:
         return any(each.cell in cells for each in state.world.things())
@@ -121,7 +132,14 @@ def stays_free(told: Told) -> Iterator[str]:
     yield from differ("taken now", told["taken_now"] is not None, now)
     at = next((at for at, each in enumerate(states) if taken(each)), None)
     if now:
-        frees = next((at for at, each in enumerate(states, 1) if not taken(each) and each.world.outcome is Outcome.RUNNING), None)
+        frees = next(
+            (
+                at
+                for at, each in enumerate(states, 1)
+                if not taken(each) and each.world.outcome is Outcome.RUNNING
+            ),
+            None,
+        )
         if not crashed:
             yield from differ("frees", told["frees_after"], frees)
     else:
@@ -222,10 +240,21 @@ def path_ends(told: Told) -> Iterator[str]:
     elif world.outcome in (Outcome.CRASH, Outcome.SUCCESS):
         yield f"ends in {world.outcome}"
     said = told.between(r"I am in lane \d+ after (\d+(?:\.\d+)?) s")
-    if said is not None and reached is not None and record.states[policy["from_tick"]].world.road.cell(record.states[policy["from_tick"]].world.av)[0] != lane:
+    if (
+        said is not None
+        and reached is not None
+        and record.states[policy["from_tick"]].world.road.cell(record.states[policy["from_tick"]].world.av)[0]
+        != lane
+    ):
         yield from near("in the lane after", said[0], record.seconds(reached), 0.051)
     real = policy["as_it_is"].get("run")
-    if real is not None and _known(record) and not record.asked and policy["from_tick"] == record.timeline.tick and record.outcome is Outcome.RUNNING:
+    if (
+        real is not None
+        and _known(record)
+        and not record.asked
+        and policy["from_tick"] == record.timeline.tick
+        and record.outcome is Outcome.RUNNING
+    ):
         yield from differ("as it is", real["outcome"], ENDS[_planned(record).state.world.outcome])
 
 
@@ -252,7 +281,11 @@ def so_far(told: Told) -> Iterator[str]:
     yield from differ("rows", found["rows_ahead"], rows)
     same = differs is None and other.tick >= record.last
     yield from differ("same", found["same"], same)
-    wanted = {"so_far_same": same, "so_far_differs": not same, "so_far_clear": other.state.world.outcome is not Outcome.CRASH}
+    wanted = {
+        "so_far_same": same,
+        "so_far_differs": not same,
+        "so_far_clear": other.state.world.outcome is not Outcome.CRASH,
+    }
     if told.yes is not None:
         yield from differ("yes", told.yes, wanted[told.kind])
     said = told.between(r"first difference is at tick (\d+)")
@@ -309,13 +342,17 @@ def trouble(told: Told) -> Iterator[str]:
         if each["outcome_without"] is None:
             continue
         timeline = Timeline(record.timeline.config)
-        timeline.apply(1, [Remove(kind=str(each["kind"]), count=1, where=Where(cell=_cell(record, each["id"])))])  # type: ignore[arg-type]
+        timeline.apply(
+            1, [Remove(kind=str(each["kind"]), count=1, where=Where(cell=_cell(record, each["id"])))]
+        )  # type: ignore[arg-type]
         if timeline.state.world.find(each["id"]) is not None:
             continue
         while timeline.state.world.outcome is Outcome.RUNNING and timeline.tick < MOST:
             timeline.advance()
         if timeline.tick < MOST and _known(record):
-            yield from differ(f"without {each['id']}", each["outcome_without"], ENDS[timeline.state.world.outcome])
+            yield from differ(
+                f"without {each['id']}", each["outcome_without"], ENDS[timeline.state.world.outcome]
+            )
 
 
 def _cell(record: Record, id: str) -> tuple[int, int]:
@@ -328,7 +365,9 @@ def hand_beside(told: Told) -> Iterator[str]:
     record = told.record
     if not told.has("planner_instead") or record.first:
         return
-    took = next((tick for tick, state in enumerate(record.states) if state.queue or state.mode is Mode.MANUAL), None)
+    took = next(
+        (tick for tick, state in enumerate(record.states) if state.queue or state.mode is Mode.MANUAL), None
+    )
     yield from differ("from", told["from_tick"], took)
     if took is None:
         return
@@ -350,13 +389,21 @@ def hand_beside(told: Told) -> Iterator[str]:
         stops = sum(now and not was for was, now in pairwise([False, *still]))
         changes = sum(was[0] != now[0] for was, now in pairwise(cells))
         found = [ENDS[states[-1].world.outcome], cells[0][1] - cells[-1][1], cells[-1][1], stops, changes]
-        yield from listed("beside", [each[key] for key in ("outcome", "rows", "rows_left", "stops", "lane_changes")], found)
+        yield from listed(
+            "beside", [each[key] for key in ("outcome", "rows", "rows_left", "stops", "lane_changes")], found
+        )
     rows = told.between(r"You are (\d+) rows? .*?(?:ahead of|behind)")
     if rows is not None:
-        yield from differ("rows said", rows[0], abs(told["you"]["rows_left"] - told["planner_instead"]["rows_left"]))
+        yield from differ(
+            "rows said", rows[0], abs(told["you"]["rows_left"] - told["planner_instead"]["rows_left"])
+        )
     if told.kind == "rival_smoother":
-        yours, theirs = (each["stops"] + each["lane_changes"] for each in (told["you"], told["planner_instead"]))
-        if told.text.startswith("You ") and yours >= theirs or told.text.startswith(("I would", "Dijkstra would")) and theirs >= yours:
+        yours, theirs = (
+            each["stops"] + each["lane_changes"] for each in (told["you"], told["planner_instead"])
+        )
+        if (told.text.startswith("You ") and yours >= theirs) or (
+            told.text.startswith(("I would", "Dijkstra would")) and theirs >= yours
+        ):
             yield f"smoother: {yours} and {theirs}"
 
 
@@ -379,12 +426,20 @@ def unsafe_moves(told: Told) -> Iterator[str]:
 
 def by_hand(told: Told) -> Iterator[str]:
     record = told.record
-    drove = [tick for tick in range(record.first, record.last) if record.states[tick].queue or record.states[tick].mode is Mode.MANUAL]
+    drove = [
+        tick
+        for tick in range(record.first, record.last)
+        if record.states[tick].queue or record.states[tick].mode is Mode.MANUAL
+    ]
     if not told.has("moves", "held_back"):
         if drove and told.record.driven and "not driven" in told.text:
             yield f"drove at {drove}"
         return
-    asked = [decision for tick in range(record.first, record.last) if (decision := record.timeline.decision(tick)) is not None and decision.asked is not None]
+    asked = [
+        decision
+        for tick in range(record.first, record.last)
+        if (decision := record.timeline.decision(tick)) is not None and decision.asked is not None
+    ]
     yield from differ("moves", told["moves"], len(asked))
     yield from differ("held back", len(told["held_back"]), sum(each.held_back for each in asked))
     for each in told["held_back"]:
@@ -507,7 +562,12 @@ def luck(told: Told) -> Iterator[str]:
         count = told.between(rf"(\d+) {word}")
         if count is not None and told.record.outcome is not Outcome.RUNNING:
             yield from differ(word, count[0], outcomes.count(outcome))
-    if told.record.config.certain and not told.record.config.slips and "perfect" == told.record.config.sensor and told.yes is not False:
+    if (
+        told.record.config.certain
+        and not told.record.config.slips
+        and told.record.config.sensor == "perfect"
+        and told.yes is not False
+    ):
         yield "nothing is left to chance"
 
 
@@ -520,7 +580,8 @@ def lost_count(told: Told) -> Iterator[str]:
 JUDGES: dict[str, Judge] = {
     **dict.fromkeys(("place_then", "place_then_seconds"), place_then),
     **dict.fromkeys(
-        ("stays_free_left", "stays_free_right", "stays_free_ahead", "closing_left", "closing_right"), stays_free
+        ("stays_free_left", "stays_free_right", "stays_free_ahead", "closing_left", "closing_right"),
+        stays_free,
     ),
     "others_next": others_next,
     "danger": danger,
@@ -540,4 +601,3 @@ JUDGES: dict[str, Judge] = {
     "luck": luck,
 }
 """By kind of question."""
-

@@ -122,7 +122,9 @@ def closest_call(told: Told) -> Iterator[str]:
         return
     least = min(each[2] for each in found)
     yield from near("gap", call["gap_m"], least, 1e-4)
-    if not any(each[0] == call["tick"] and each[1] == call["id"] and each[2] < least + 1e-4 for each in found):
+    if not any(
+        each[0] == call["tick"] and each[1] == call["id"] and each[2] < least + 1e-4 for each in found
+    ):
         yield "another thing or tick"
     said = told.between(r"near as (\d+(?:\.\d+)?) m")
     if said is not None:
@@ -146,7 +148,9 @@ def move_risk(told: Told) -> Iterator[str]:
             if then.outcome is not Outcome.CRASH:
                 free.append(str(move))
     yield from listed("free moves", sorted(told["free"]), sorted(free))
-    yield from differ("crashed", told["crashed"], after.world.ended is not None and after.world.outcome is Outcome.CRASH)
+    yield from differ(
+        "crashed", told["crashed"], after.world.ended is not None and after.world.outcome is Outcome.CRASH
+    )
     said = told.between(r"(\d+) of (\d+) moves")
     if said is not None:
         yield from listed("moves said", said, [len(free), len(told["tried"])])
@@ -234,7 +238,9 @@ def _stops(record: Record) -> list[tuple[int, int]] | None:
     still = [record.first + at for at, move in enumerate(moves_of(record)) if move is Move.STAY]
     return [
         (run[0], len(run))
-        for run in ([tick for _, tick in run] for _, run in groupby(enumerate(still), lambda each: each[1] - each[0]))
+        for run in (
+            [tick for _, tick in run] for _, run in groupby(enumerate(still), lambda each: each[1] - each[0])
+        )
     ]
 
 
@@ -286,7 +292,11 @@ def longest_run(told: Told) -> Iterator[str]:
     still = {tick + more for tick, ticks in found for more in range(ticks)}
     going = [tick for tick in range(told.record.first, told.record.last) if tick not in still]
     runs = [[tick for _, tick in run] for _, run in groupby(enumerate(going), lambda each: each[1] - each[0])]
-    yield from listed("stretches", [(each["tick"], each["ticks"]) for each in told["stretches"]], [(run[0], len(run)) for run in runs])
+    yield from listed(
+        "stretches",
+        [(each["tick"], each["ticks"]) for each in told["stretches"]],
+        [(run[0], len(run)) for run in runs],
+    )
     said = told.between(r"began at tick (\d+) and took (\d+(?:\.\d+)?) s")
     if runs and (said is None or abs(said[1] - told.record.seconds(max(map(len, runs)))) > 0.051):
         yield f"longest {said}"
@@ -305,7 +315,11 @@ def lanes_used(told: Told) -> Iterator[str]:
 
 def _changes(record: Record) -> list[tuple[int, int]]:
     cells = record.cells
-    return [(record.first + at, now[0] - was[0]) for at, (was, now) in enumerate(pairwise(cells)) if now[0] != was[0]]
+    return [
+        (record.first + at, now[0] - was[0])
+        for at, (was, now) in enumerate(pairwise(cells))
+        if now[0] != was[0]
+    ]
 
 
 def lane_changes(told: Told) -> Iterator[str]:
@@ -340,7 +354,9 @@ def moves(told: Told) -> Iterator[str]:
         counts = Counter(move for _, move in made)
         percents = [int(each) for each in re.findall(r"\((\d+) %\)", told.text)]
         found = [100 * counts[str(move)] / len(made) for move in Move if counts[str(move)]]
-        if len(percents) != len(found) or any(abs(a - b) > 0.501 for a, b in zip(percents, found, strict=True)):
+        if len(percents) != len(found) or any(
+            abs(a - b) > 0.501 for a, b in zip(percents, found, strict=True)
+        ):
             yield f"shares {percents}, not {found}"
 
 
@@ -351,7 +367,11 @@ def advanced(told: Told) -> Iterator[str]:
     if "in the last" in told.question:
         back = int(told.slots["n"])
         states = told.record.states[-back - 1 :]
-        if len(states) <= back or states[0].world.episode != states[-1].world.episode or states[-1].world.ended:
+        if (
+            len(states) <= back
+            or states[0].world.episode != states[-1].world.episode
+            or states[-1].world.ended
+        ):
             return
     rows = [state.world.road.cell(state.world.av)[1] for state in states]
     yield from differ("rows", told["rows"], rows[0] - rows[-1])
@@ -373,7 +393,10 @@ def tight(told: Told) -> Iterator[str]:
         free = sum(_clear(state, move) for move in Move)
         one += [state.world.tick] if free == 1 else []
         none += [state.world.tick] if free == 0 else []
-    ticks = [[each["tick"] if isinstance(each, dict) else each for each in told[key]] for key in ("one_free", "none_free")]
+    ticks = [
+        [each["tick"] if isinstance(each, dict) else each for each in told[key]]
+        for key in ("one_free", "none_free")
+    ]
     yield from listed("one free", ticks[0], one)
     yield from listed("none free", ticks[1], none)
     if told.record.driven:
@@ -401,7 +424,9 @@ def track(told: Told) -> Iterator[str]:
     lane = next(at for at in range(len(cells)) if all(cell[0] == cells[-1][0] for cell in cells[at:])) + first
     yield from listed("turns", told["reversals"], turns)
     yield from listed("not ahead", told["not_advanced"], held)
-    yield from listed("since", [told["nearest_at"], told["here_since"], told["lane_since"]], [nearest, here, lane])
+    yield from listed(
+        "since", [told["nearest_at"], told["here_since"], told["lane_since"]], [nearest, here, lane]
+    )
     match told.kind:
         case "smoothness" | "ride_comfort":
             said = told.between(r"On (\d+) m: lane changes (\d+), stops (\d+), turns to the other side (\d+)")
@@ -437,7 +462,9 @@ def least_ttc(told: Told) -> Iterator[str]:
         states = states[:-1]
     least, ticks = None, 0
     for before, after in pairwise(states):
-        times = [time for thing in before.world.things() if (time := _contact(before, after, thing.id)) is not None]
+        times = [
+            time for thing in before.world.things() if (time := _contact(before, after, thing.id)) is not None
+        ]
         ticks += bool(times)
         if times and (least is None or min(times) < least - 1e-9):
             least = min(times)
@@ -494,7 +521,9 @@ def story(told: Told) -> Iterator[str]:
     yield from differ("lane changes", changes, len(_changes(record)))
     still = sum(each["ticks"] for each in told["events"] if each["what"] == "stop")
     yield from differ("still", still, sum(move is Move.STAY for move in moves_of(record)))
-    if any(each["what"] == "changed" for each in told["events"]) and "Remove" not in repr(list(record.timeline.entries)):
+    if any(each["what"] == "changed" for each in told["events"]) and "Remove" not in repr(
+        list(record.timeline.entries)
+    ):
         yield "the road was not changed"
     said = told.between(r"Tick (\d+): start in lane (\d+)")
     if said is None:
@@ -515,14 +544,18 @@ def places(told: Told) -> Iterator[str]:
         if thing is None:
             yield f"not there at {each['tick']}"
         else:
-            yield from listed("place", [each["lanes"], each["rows"]], [thing.cell[0] - own[0], own[1] - thing.cell[1]])
+            yield from listed(
+                "place", [each["lanes"], each["rows"]], [thing.cell[0] - own[0], own[1] - thing.cell[1]]
+            )
 
 
 def end(told: Told) -> Iterator[str]:
     if not told.has("rows_to_goal") or told.record.first or told.record.outcome is Outcome.RUNNING:
         return
     column, row = told.record.cells[-1]
-    yield from listed("end", [told["lane"], told["rows_to_goal"], told["ended"]], [column + 1, row, told.record.last])
+    yield from listed(
+        "end", [told["lane"], told["rows_to_goal"], told["ended"]], [column + 1, row, told.record.last]
+    )
     yield from differ("outcome", told["outcome"], str(told.record.outcome))
 
 

@@ -66,9 +66,21 @@ def sightings(told: Told) -> Iterator[str]:
     if not told.has("sightings"):
         return
     record, first = told.record, _first_seen(told.record)
-    said = {each["id"]: (each["first_seen"], each["rows_ahead"]) for each in told["sightings"] if each["first_seen"] is not None}
-    yield from differ("first seen", {k: said[k] for k in sorted(said)}, {k: first[k] for k in sorted(first) if k in said or k in {e["id"] for e in told["sightings"]}})
-    every = {each.id: each.kind for tick in range(record.first, record.last + 1) for each in things_of(record.states[tick])}
+    said = {
+        each["id"]: (each["first_seen"], each["rows_ahead"])
+        for each in told["sightings"]
+        if each["first_seen"] is not None
+    }
+    yield from differ(
+        "first seen",
+        {k: said[k] for k in sorted(said)},
+        {k: first[k] for k in sorted(first) if k in said or k in {e["id"] for e in told["sightings"]}},
+    )
+    every = {
+        each.id: each.kind
+        for tick in range(record.first, record.last + 1)
+        for each in things_of(record.states[tick])
+    }
     kind = told.thing_kind if told.kind == "sighted_kind" else None
     named = [id for id, each in every.items() if kind in (None, each)]
     rate = told.between(r"Of (\d+) .*? in this drive I have detected (\d+)")
@@ -76,8 +88,12 @@ def sightings(told: Told) -> Iterator[str]:
         yield from listed("rate", rate, [len(named), sum(id in first for id in named)])
     mean = told.between(r"it was (-?\d+(?:\.\d+)?) m ahead on average")
     if mean is not None and not kind:
-        rows = [first[id][1] for id in named if id in first]
+        every_row = [first[id][1] for id in named if id in first]
+        rows = [each for each in every_row if each > 0]
         yield from near("mean", mean[0], sum(rows) / len(rows) * record.config.cell_m, 0.51)
+        counted = told.between(r"counting the (\d+) of (\d+)")
+        if len(rows) < len(every_row) and counted != [len(rows), len(every_row)]:
+            yield f"mean of {len(rows)} of {len(every_row)}"
     begun = told.between(r"^The first was .*? at tick (\d+)")
     if begun is not None:
         yield from differ("first tick", begun[0], min(first[id][0] for id in named if id in first))
@@ -97,7 +113,12 @@ def sightings(told: Told) -> Iterator[str]:
         for tick in range(record.first, record.last + 1):
             there = detected(record, tick)
             for each in things_of(record.states[tick]):
-                if each.id not in there and each.id in first and first[each.id][0] < tick and each.cell[1] < _row(record, tick):
+                if (
+                    each.id not in there
+                    and each.id in first
+                    and first[each.id][0] < tick
+                    and each.cell[1] < _row(record, tick)
+                ):
                     lost.setdefault(each.id, tick)
         if told.yes is not None:
             yield from differ("yes", told.yes, bool(lost))
@@ -108,7 +129,9 @@ def _passed(record: Record) -> list[str]:
     ahead, row = set(), _row(record, record.last)
     for tick in range(record.first, record.last + 1):
         ahead |= {each.id for each in things_of(record.states[tick]) if each.cell[1] < _row(record, tick)}
-    return [each.id for each in things_of(record.states[record.last]) if each.cell[1] > row and each.id in ahead]
+    return [
+        each.id for each in things_of(record.states[record.last]) if each.cell[1] > row and each.id in ahead
+    ]
 
 
 def noticed(told: Told) -> Iterator[str]:
@@ -132,11 +155,16 @@ def truth(told: Told) -> Iterator[str]:
     said = told.between(r"Of (\d+) things I do not detect (\d+)")
     if said is not None:
         yield from listed("said", said, [len(there), len(missed)])
-    elif missed and told.kind == "missed":
+    elif len(missed) > 1 and told.kind == "missed":
         yield f"misses {len(missed)}"
     if told.kind == "belief":
         counts = Counter(each.kind for each in there)
-        for noun, kind in (("potholes?", Kind.POTHOLE), ("barriers?", Kind.BARRIER), ("cars?", Kind.VEHICLE), ("pedestrians?", Kind.PEDESTRIAN)):
+        for noun, kind in (
+            ("potholes?", Kind.POTHOLE),
+            ("barriers?", Kind.BARRIER),
+            ("cars?", Kind.VEHICLE),
+            ("pedestrians?", Kind.PEDESTRIAN),
+        ):
             count = told.between(rf"there (?:are|is) [^.]*?(\d+) {noun}\b[^.]*on the road")
             if count is not None:
                 yield from differ(f"count of {kind}", count[0], counts[kind])
@@ -187,7 +215,9 @@ def by_device(told: Told) -> Iterator[str]:
 def cell_taken(told: Told) -> Iterator[str]:
     if not told.has("cell", "really") or told["cell"] is None:
         return
-    there = next((each.kind for each in things_of(told.record.state) if list(each.cell) == list(told["cell"])), None)
+    there = next(
+        (each.kind for each in things_of(told.record.state) if list(each.cell) == list(told["cell"])), None
+    )
     yield from differ("really", told["really"], there)
 
 
@@ -224,7 +254,11 @@ def within(told: Told) -> Iterator[str]:
         most = max(lanes.values(), default=0)
         said = re.search(r"in lanes? ([\d, and]+): (\d+)(?: each)?,? of (\d+)", told.text)
         if said is not None:
-            yield from listed("lanes", re.findall(r"\d+", said[1]), [str(each) for each in sorted(lanes) if lanes[each] == most])
+            yield from listed(
+                "lanes",
+                re.findall(r"\d+", said[1]),
+                [str(each) for each in sorted(lanes) if lanes[each] == most],
+            )
             yield from listed("counts", [int(said[2]), int(said[3])], [most, len(found)])
         elif found:
             yield "no lanes"
@@ -245,14 +279,19 @@ def gaps(told: Told) -> Iterator[str]:
         return
     world = told.record.state.world
     row = world.road.cell(world.av)[1]
-    cells = {kind: {each.cell for each in things_of(told.record.state) if each.kind is kind} for kind in (Kind.BARRIER, Kind.POTHOLE)}
+    cells = {
+        kind: {each.cell for each in things_of(told.record.state) if each.kind is kind}
+        for kind in (Kind.BARRIER, Kind.POTHOLE)
+    }
     barred = Counter(cell[1] for cell in cells[Kind.BARRIER] if cell[1] < row)
     most = [each for each in barred if barred[each] > 1] or list(barred)
     yield from listed("rows", [each["row"] for each in told["rows"]], sorted(most, reverse=True))
     for each in told["rows"]:
         lanes = range(world.road.columns)
         barriers = [lane + 1 for lane in lanes if (lane, each["row"]) in cells[Kind.BARRIER]]
-        free = [lane + 1 for lane in lanes if not any((lane, each["row"]) in taken for taken in cells.values())]
+        free = [
+            lane + 1 for lane in lanes if not any((lane, each["row"]) in taken for taken in cells.values())
+        ]
         yield from listed("barriers", each["barriers"], barriers)
         yield from listed("free", each["free"], free)
     for gap in told.answer.get("gaps", ()):
@@ -284,7 +323,9 @@ def row_of(told: Told) -> Iterator[str]:
         return
     record = told.record
     column, row = record.state.world.road.cell(record.state.world.av)
-    found = [cell for each, cell in believed(record, record.timeline.tick).values() if each is told.thing_kind]
+    found = [
+        cell for each, cell in believed(record, record.timeline.tick).values() if each is told.thing_kind
+    ]
     said = told.between(r"lane (\d+), row (\d+)")
     if said is not None and (said[0] - 1, said[1]) not in found:
         yield f"nothing in {said}"
@@ -296,7 +337,15 @@ def row_of(told: Told) -> Iterator[str]:
 
 JUDGES: dict[str, Judge] = {
     **dict.fromkeys(
-        ("sighted_kind", "sighted_first", "sighted_last", "sighted_all", "sighted_rate", "overlooked", "lost_sight"),
+        (
+            "sighted_kind",
+            "sighted_first",
+            "sighted_last",
+            "sighted_all",
+            "sighted_rate",
+            "overlooked",
+            "lost_sight",
+        ),
         sightings,
     ),
     "noticed": noticed,
