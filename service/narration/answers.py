@@ -245,6 +245,7 @@ class Answers:
             answer["tick"] = tick
         if preface is not None:
             answer["text"] = self._sayings.say("past", "viewed", preface, tick=tick, text=answer["text"])
+        answer["text"] = self._sayings.with_ones(answer["text"])
         return answer
 
     def _answer(self, asked: Asked) -> Json:

@@ -173,7 +173,7 @@ class BeliefChecked:
         if not found.decisions:
             return self._say("alarms", "no_decisions"), facts
         if not found.changed:
-            key = "same" if found.alarmed else "none"
+            key = "none" if not found.alarmed else "same_one" if found.alarmed == 1 else "same"
             told = [Part(0, f"{self._no()} {self._say('alarms', key, count=found.alarmed)}")]
         else:
             told = [Part(0, self._changed(found))]

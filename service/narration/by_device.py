@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import groupby
 from typing import Any, Final
 
-from service.narration.answer_length import Part, within
+from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
@@ -68,8 +68,9 @@ class ByDeviceTold:
             one=found.by_count(1),
             none=found.by_count(0),
         )
-        only = [self._only(found, name, state) for name in found.seen if found.only(name)]
-        alone = " ".join(only) or self._say("nobody_alone")
+        alone = self._alone_ones(found, state, MOST_NAMED)
+        if len(alone.split()) > MOST_WORDS // 2:
+            alone = self._alone_ones(found, state, 1)
         told = [Part(0, counts), Part(1, alone), Part(2, self._own(state))]
         if ONLY in words:
             told = [Part(0, alone), Part(1, counts), Part(2, self._own(state))]
@@ -79,14 +80,20 @@ class ByDeviceTold:
             told.insert(0, Part(0, self._say("first_word", answer=answer)))
         return within(told), facts
 
-    def _only(self, found: ByDevice, device: str, state: SimState) -> str:
-        return self._say("only", sensor=self._sensor(device), who=self._named(found.only(device), state))
+    def _alone_ones(self, found: ByDevice, state: SimState, most: int) -> str:
+        """What each sensor alone reports, so many of its things by name."""
+        told = [
+            self._say("only", sensor=self._sensor(name), who=self._named(found.only(name), state, most))
+            for name in found.seen
+            if found.only(name)
+        ]
+        return " ".join(told) or self._say("nobody_alone")
 
-    def _named(self, things: tuple[Thing, ...], state: SimState) -> str:
+    def _named(self, things: tuple[Thing, ...], state: SimState, most: int = MOST_NAMED) -> str:
         naming = Naming(self._sayings, state, as_seen=False)
-        names = [naming.thing(each.id) for each in things[:MOST_NAMED]]
-        if len(things) > MOST_NAMED:
-            names.append(self._say("more", count=len(things) - MOST_NAMED))
+        names = [naming.thing(each.id) for each in things[:most]]
+        if len(things) > most:
+            names.append(self._say("more", count=len(things) - most))
         return self._sayings.joined(names)
 
     def _alone(self, found: ByDevice, name: str, state: SimState) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, plain
 from service.narration.charges import in_seconds
 from service.narration.metrics import Figures
@@ -70,20 +71,21 @@ class History:
             if found.closest is None:
                 return self._say("no_call" if found.ticks else "no_call_yet")
             return self._closest(found.closest)
-        told = [self._episode(found) if what == "summary" else self._header(found)]
         if not found.ticks:
             return self._say("nothing", tick=found.last.world.tick)
+        told = [Part(0, self._episode(found) if what == "summary" else self._header(found))]
         if found.counted.steps:
-            told += [self._figures.moves(found.counted), self._figures.distance(found.counted)]
+            moves, way = self._figures.moves(found.counted), self._figures.distance(found.counted)
+            told += [Part(0, moves), Part(3, way)]
         else:
-            told.append(self._say("still"))
+            told.append(Part(0, self._say("still")))
         if what != "summary":
-            told += self._ends(found)
+            told += [Part(0, each) for each in self._ends(found)]
         if found.changes:
-            told.append(self._many("changes", found.changes))
+            told.append(Part(2, self._many("changes", found.changes)))
         if found.closest is not None:
-            told.append(self._closest(found.closest))
-        return " ".join(told)
+            told.append(Part(1, self._closest(found.closest)))
+        return within(told)
 
     def _of_several(self, asked: Asked, first: int, last: int) -> tuple[str, ClosestCall | None]:
         """The closest call with a kind of things, or the second, the third … with another one each."""

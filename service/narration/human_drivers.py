@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, plain
 from service.narration.blame import Blames
+from service.narration.move_reasons import SENTENCE_END
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 
@@ -24,11 +26,14 @@ class HumanDrivers:
         facts = {key: value for key, value in avoidable.items() if key not in ("question", "text", "what")}
         unknown = self._say("unknown")
         if "what" in avoidable:
-            text = f"{unknown} {self._say('possible')} {avoidable['text']}"
+            sentences = [Part(0, unknown), Part(1, self._say("possible"))]
+            told = SENTENCE_END.split(str(avoidable["text"]))
+            sentences += [Part(at + 2 if at else 0, each) for at, each in enumerate(told)]
+            text = within(sentences)
         else:  # there was no crash to speak of
             text = f"{unknown} {self._say('compare', example=self._say('example'))}"
-        told = plain(self._sayings, asked.ask, asked.timeline.state, text)
-        return told | facts | {"what": asked.ask.what}
+        answer = plain(self._sayings, asked.ask, asked.timeline.state, text)
+        return answer | facts | {"what": asked.ask.what}
 
     def _say(self, key: str, **parts: object) -> str:
         return self._sayings.say("planners_differ", "human", key, **parts)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.contract.encode.past import pattern_json, risk_json, similar_json
-from service.narration.answer_length import Part, within
+from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
 from service.narration.inflection import capital
@@ -84,8 +84,12 @@ class Moments:
         facts = {"tick": found.before.world.tick, "did": self._sayings.move(found.move, "did")}
         if not found.found:
             return self._say("none_similar", searched=found.searched, **facts)
-        moments = self._sayings.listed([self._like(each, found) for each in found.found[:MOST_MOMENTS]])
-        return self._say("similar", moments=moments, **facts)
+        likes = [self._like(each, found) for each in found.found[:MOST_MOMENTS]]
+        told = self._say("similar", moments=self._sayings.listed(likes), **facts)
+        while len(likes) > 1 and len(told.split()) > MOST_WORDS:
+            likes.pop()
+            told = self._say("similar", moments=self._sayings.listed(likes), **facts)
+        return told
 
     def _like(self, like: Likeness, found: Similar) -> str:
         if not like.shared:

@@ -14,7 +14,8 @@ from service.sessions.facts import Asked
 MOST_MOVES: Final = 10
 """Moves that are explained at once: an answer of so many sentences is asked for."""
 DEFAULT_MOVES: Final = 5
-_END: Final = re.compile(r"(?<=[^\W\d][.!?])\s+|(?<=[)”“][.!?])\s+")
+SENTENCE_END: Final = re.compile(r"(?<=[^\W\d][.!?])\s+|(?<=[)”“][.!?])\s+")
+"""Between two sentences of an answer."""
 
 
 class MoveReasons:
@@ -53,7 +54,7 @@ class MoveReasons:
     def _reason(self, asked: Asked, tick: int) -> str:
         """The first sentence of why that move was made."""
         why = Asked(Ask(about="why", tick=tick), asked.timeline, length="shorter")
-        return _END.split(str(self._whys.answer(why)["text"]), maxsplit=1)[0]
+        return SENTENCE_END.split(str(self._whys.answer(why)["text"]), maxsplit=1)[0]
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("move_reasons", *keys, **parts)

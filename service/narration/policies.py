@@ -12,7 +12,7 @@ from service.narration.supposed_ends import ARRIVES, FAILS
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.driving_policy import Policy, PolicyRun, policy_run
-from sim.types import Outcome
+from sim.types import Mode, Outcome
 
 
 class Policies:
@@ -71,7 +71,8 @@ class Policies:
         """How it ends, with its chance where that is left to chance."""
         supposed = self._say("supposed", found.policy, lane=found.lane)
         if found.as_it_is:
-            return self._say("anyway", supposed=supposed, end=end_told(self._sayings, found.real))
+            key = "anyway_by_planner" if self._went_otherwise(found) else "anyway"
+            return self._say(key, supposed=supposed, end=end_told(self._sayings, found.real))
         if found.chances is not None and found.by_chance:
             crash = share_told(self._sayings, found.crashes, found.chances)
             arrive = share_told(self._sayings, found.arrives, found.chances)
@@ -97,7 +98,12 @@ class Policies:
     def _as_it_is(self, found: PolicyRun) -> str:
         if found.as_it_is:
             return ""
-        return self._say("as_it_is", end=end_told(self._sayings, found.real))
+        key = "by_planner" if self._went_otherwise(found) else "as_it_is"
+        return self._say(key, end=end_told(self._sayings, found.real))
+
+    def _went_otherwise(self, found: PolicyRun) -> bool:
+        """Whether it does not go, or did not, as the planner alone would have it: a person had a hand in it."""
+        return bool(found.said_since) or found.state.mode is Mode.MANUAL
 
     def _since(self, found: PolicyRun, tick: int) -> str:
         return self._sayings.say("whatif", "said_since", tick=tick) if found.said_since else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
@@ -27,6 +28,8 @@ class Names(Protocol):
         """Those of these things that were seen where they were not, and where that was."""
 
 
+_ALONE: Final = r"(?<![\w.,/:–-])(?<!\btick )(?<!\blane )(?<!\brow )(?<!\bTick )(?<!\bSpur )(?<!\bReihe )"
+"""Before a one that counts: no other number, and no name of what is numbered."""
 _BY_KIND: Final = (
     ("words", "a"),
     ("naming", "the"),
@@ -85,6 +88,9 @@ class Sayings:
         marks = {",": numbers["thousands"], ".": numbers["decimal"]}
         self._marks = {} if all(mark == other for mark, other in marks.items()) else str.maketrans(marks)
 
+        ones = sorted(self._words["ones"], key=len, reverse=True)
+        self._ones = re.compile(rf"{_ALONE}1 ({'|'.join(map(re.escape, ones))})\b")
+
     @classmethod
     def load(cls, code: str = DEFAULT_LANGUAGE, folder: Path | None = None) -> Sayings:
         """The sayings of a language. Raises `FileNotFoundError` where there are none."""
@@ -122,6 +128,10 @@ class Sayings:
         """A number with the marks of the language, in a format of Python."""
         told = format(value, spec)
         return told.translate(self._marks) if self._marks else told
+
+    def with_ones(self, text: str) -> str:
+        """A text in which what is counted stands in its form for one after the number one."""
+        return self._ones.sub(lambda found: f"1 {self._words['ones'][found[1]]}", text)
 
     def quoted(self, text: str) -> str:
         """What is said, in quotation marks."""

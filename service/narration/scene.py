@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Final
 
 from service.contract.encode.scene import misperception_json, scene_json
+from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.answerer import Json, plain
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
@@ -59,13 +60,21 @@ class Scenes:
         else:
             text = self.text(scene, run, kind, counting="number" in about.words)
         if not about.is_of_places:  # of a place, that would be about others
-            text = " ".join([text, *self._not_as_seen(wrong, run)])
+            text = self._with_hindsight(text, wrong, run)
         if asked.ask.count is not None and kind is not None:
             scene = nearest_alone(scene, kind)
         found = scene_json(scene, kind, run.config.cell_m, run.config.step_seconds)
         return plain(self._sayings, asked.ask, run, text) | found | misperception_json(wrong)
 
-    def _not_as_seen(self, wrong: Misperception, run: SimState) -> list[str]:
+    def _with_hindsight(self, text: str, wrong: Misperception, run: SimState) -> str:
+        """What is seen, then what of it is not there and what is missed: as much of that as there is room for."""
+        for most in (MAX_TOLD, 1):
+            told = " ".join([text, *self._not_as_seen(wrong, run, most)])
+            if len(told.split()) <= MOST_WORDS:
+                return told
+        return within(Part(rank, part) for rank, part in enumerate((text, *self._not_as_seen(wrong, run, 1))))
+
+    def _not_as_seen(self, wrong: Misperception, run: SimState, most: int) -> list[str]:
         """What is seen and not there, and what is there and not seen: the nearest are told."""
         told = []
         column, row = run.world.road.cell(run.world.av)
@@ -75,9 +84,9 @@ class Scenes:
                 near = sorted(
                     things, key=lambda thing: max(abs(thing.cell[0] - column), abs(thing.cell[1] - row))
                 )
-                shown = [naming.thing(thing.id) for thing in near[:MAX_TOLD]]
-                if len(things) > MAX_TOLD:
-                    shown.append(self._sayings.say("scene", "more", count=len(things) - MAX_TOLD))
+                shown = [naming.thing(thing.id) for thing in near[:most]]
+                if len(things) > most:
+                    shown.append(self._sayings.say("scene", "more", count=len(things) - most))
                 form = ("one" if len(things) == 1 else "many",) if key == "phantoms" else ()
                 told.append(self._sayings.say("scene", key, *form, things=self._sayings.joined(shown)))
         return told

@@ -191,8 +191,15 @@ class ScenePlaces:
             return self._say("none", things=noun)
         counts = Counter(self._own + thing.lanes for thing in things)
         most = max(counts.values())
-        lanes = self._numbers(sorted(lane for lane, count in counts.items() if count == most))
-        by_lane = self._say("lanes_fullest", lanes=lanes, count=most, total=len(things), things=noun)
+        fullest = sorted(lane for lane, count in counts.items() if count == most)
+        by_lane = self._say(
+            "lanes_fullest",
+            "one" if len(fullest) == 1 else "many",
+            lanes=self._numbers(fullest),
+            count=most,
+            total=len(things),
+            things=noun,
+        )
         ahead = Counter(thing.rows for thing in things if thing.rows > 0)
         if not ahead:
             by_row = self._say("rows_none", things=noun)

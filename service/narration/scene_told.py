@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Final
 
-from service.narration.answer_length import Part, within
+from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from sim.explain.scene import Detection, Scene
@@ -31,6 +31,10 @@ def distance(thing: Detection) -> tuple[int, int, bool]:
     return max(abs(thing.lanes), abs(thing.rows)), abs(thing.lanes), thing.rows < 0
 
 
+FEW_BEFORE: Final = 4
+"""Words that may be said before a scene: of which tick it is, or yes or no."""
+
+
 class SceneTold:
     """One scene in words."""
 
@@ -50,7 +54,7 @@ class SceneTold:
         others = [thing for thing in self._scene.seen if thing.ticks is None and thing.rows >= 0]
         if others and len(self._scene.seen) > 1:
             told.append(Part(1, self.say("nearest", thing=self.near(others[0]))))
-        return within(told)
+        return within(told, MOST_WORDS - FEW_BEFORE)
 
     def agreed(self, asked: str) -> str:
         """All of it, after whether there is `anything` or the way straight on is `clear`."""
@@ -77,14 +81,11 @@ class SceneTold:
         rest = len(things) - len(ahead)
         if not ahead:
             return self.say("none_ahead", things=noun, count=self.count(rest))
-        told = [self._ahead(ahead, rest), *self._met(ahead)]
+        told = [Part(0, self._ahead(ahead, rest)), *(Part(1, each) for each in self._met(ahead))]
         if rest:
-            told.append(
-                self.say(
-                    "rest", "one" if rest == 1 else "many", count=self.count(rest), thing=self.noun(kind, 1)
-                )
-            )
-        return " ".join(told)
+            form, thing = "one" if rest == 1 else "many", self.noun(kind, 1)
+            told.append(Part(2, self.say("rest", form, count=self.count(rest), thing=thing)))
+        return within(told)
 
     def nearest(self, kind: Kind) -> str:
         """The nearest of a kind alone."""
@@ -126,7 +127,7 @@ class SceneTold:
             return self.say("number_none_ahead", total=len(things))
         key = "number_found" if len(ahead) == len(things) else "number_found_ahead"
         told = self.say(key, total=len(things), ahead=len(ahead), listed=self.listed(ahead))
-        return " ".join([told, *self._met(ahead)])
+        return within([Part(0, told), *(Part(1, each) for each in self._met(ahead))])
 
     def _ahead(self, ahead: Sequence[Detection], rest: int) -> str:
         """Those ahead; `rest`: how many there are besides."""

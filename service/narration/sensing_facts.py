@@ -91,7 +91,8 @@ class SensingFacts:
             }
             chances[kind.value] = found
             told.append(self._told(kind, found, metres, config))
-        text = " ".join([*told, self._say("detection", "perfect"), self._say("detection", "each_tick")])
+        told += [self._say("detection", "perfect"), self._say("detection", "each_tick")]
+        text = within(Part(rank, each) for rank, each in enumerate(told))
         first = {"kind": kinds[0], "chances": chances[kinds[0].value]} if ask.kind is not None else {}
         return text, {"metres": metres, "chances_by_kind": chances} | first | supposed
 

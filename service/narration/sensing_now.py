@@ -7,6 +7,7 @@ from typing import Any, Final, get_args
 
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
+from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from service.narration.values import conditions_of, value_of
@@ -268,7 +269,7 @@ class SensingNow:
             percent=self._percent(found.chance),
             conditions=conditions or self._sayings.say("sensing_compared", "plain"),
         )
-        return f"{self._yes(found.chance >= SAYS)} {told}", facts
+        return f"{self._yes(found.chance >= SAYS)} {capital(told)}", facts
 
     def _with_sensor(self, asked: Asked) -> Config:
         """The configuration with the sensor that is asked about, by default the session's."""

@@ -95,7 +95,10 @@ class PastSightings:
         if not ahead:
             return ""
         metres = sum(ahead) / len(ahead) * timeline.state.config.cell_m
-        return self._say("average", metres=self._sayings.number(round(metres)))
+        said = self._sayings.number(round(metres))
+        if len(ahead) < len(seen):  # what was beside or behind when it was first detected had no way ahead
+            return self._say("average_ahead", metres=said, count=len(ahead), all=len(seen))
+        return self._say("average", metres=said)
 
     def _one(self, asked: Asked, found: Sightings) -> str:
         """Since when a thing is detected, where it was then, and whether it was lost in between."""

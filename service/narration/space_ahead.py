@@ -5,7 +5,7 @@ from __future__ import annotations
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
-from service.narration.futures_told import counted_told, end_told, yes_and_no
+from service.narration.futures_told import CONTRARY, counted_told, end_told, yes_and_no
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
@@ -13,7 +13,7 @@ from sim.explain.foresight import Foresight
 from sim.explain.place_then import PlaceThen, place_then
 from sim.explain.question_error import QuestionError
 from sim.explain.stays_free import StaysFree, stays_free
-from sim.types import Move
+from sim.types import Mode, Move
 
 OWN_REFUSALS = ("no_lane_there", "too_far_ahead")
 """Refusals whose words stand among those of the space ahead."""
@@ -37,10 +37,14 @@ class SpaceAhead:
                 tick = timeline.tick + (self._ticks(asked) or 1) if ask.tick is None else ask.tick
                 place = place_then(timeline, tick)
                 text, facts = self._place(place, asked), _place_json(place)
+                if not place.past and timeline.state.mode is Mode.MANUAL:
+                    text = f"{self._sayings.say('ahead', 'by_hand')} {text}"
         except QuestionError as error:
             if error.code in OWN_REFUSALS:
                 side = str(error.facts.get("move", "forward"))
                 parts = {key: value for key, value in error.facts.items() if key != "move"}
+                if "ticks" in parts:
+                    parts["ticks"] = self._counted(int(parts["ticks"]))
                 told = self._say(error.code, side=self._say("sides", side), **parts)
             else:
                 told = not_so(self._sayings, error.code, error.facts)
@@ -62,12 +66,15 @@ class SpaceAhead:
 
         where = self._say("cells", str(found.move))
         if found.taken_now is not None:
-            told = self._say("free", "taken", where=where, who=naming.thing(found.taken_now), **words)
+            key = "no_gap" if asked.supposes == CONTRARY else "taken"
+            told = self._say("free", key, where=where, who=naming.thing(found.taken_now), **words)
             after = found.frees_after
             key = "never" if after is None else "frees"
-            more = self._say("free", key, seconds=seconds(after or found.ticks), ticks=after or found.ticks)
+            more = self._say(
+                "free", key, seconds=seconds(after or found.ticks), ticks=self._counted(after or found.ticks)
+            )
             return within([Part(0, told), Part(0, more)])
-        facts = {"where": where, "seconds": seconds(found.free_for), "ticks": found.free_for}
+        facts = {"where": where, "seconds": seconds(found.free_for), "ticks": self._counted(found.free_for)}
         if found.stays:
             told = self._say("free", "stays", **facts, **words)
         elif found.hit is not None:
@@ -80,6 +87,9 @@ class SpaceAhead:
             share = counted_told(self._sayings, found.share, found.futures)
             parts.append(Part(1, self._say("free", "share", share=share)))
         return within([*parts, Part(2, self._say("free", "measure"))])
+
+    def _counted(self, ticks: int) -> str:
+        return self._say("ticks", "one" if ticks == 1 else "many", count=ticks)
 
     def _place(self, found: PlaceThen, asked: Asked) -> str:
         """Lane and row, or that it is over by then; and how likely that is."""

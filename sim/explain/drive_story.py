@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
 
+from sim.actions import Drive, SetMode
 from sim.episode_record import Sake, detour_reason
 from sim.explain.closest_call import near_misses
 from sim.explain.losses import Losses, losses
@@ -86,7 +87,11 @@ def drive_story(timeline: Timeline) -> DriveStory:
     events: list[StoryEvent] = []
     for before, after in pairwise(states):
         _add_move(events, timeline, before, after)
-    said = {entry.tick for entry in timeline.entries if first < entry.tick <= last}
+    said = {
+        entry.tick
+        for entry in timeline.entries
+        if first < entry.tick <= last and not isinstance(entry.action, (SetMode, Drive))
+    }
     events += [StoryEvent(tick, Happened.CHANGED) for tick in said]
     events += _near(states)
     events.sort(key=lambda each: each.tick)

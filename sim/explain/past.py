@@ -6,6 +6,7 @@ from bisect import bisect_left
 from dataclasses import dataclass, fields
 from typing import Final
 
+from sim.actions import Drive, SetMode
 from sim.explain.closest_call import ClosestCall, closest_call
 from sim.metrics import Metrics
 from sim.session.timeline import Timeline
@@ -29,7 +30,7 @@ class Past:
     roads: int
     """episodes begun after the first tick"""
     changes: int
-    """changes of the road that were said in it"""
+    """changes of the road or of settings that were said in it; driving by hand is none"""
     closest: ClosestCall | None
 
     @property
@@ -51,7 +52,13 @@ def past(timeline: Timeline, first: int, last: int) -> Past:
         counted=_difference(states[0].metrics, states[-1].metrics),
         ends=tuple((world.tick, world.outcome) for world in worlds[1:] if world.ended == world.tick),
         roads=sum(world.episode_start == world.tick for world in worlds[1:]),
-        changes=len({entries[index].sequence for index in range(at, until)}),
+        changes=len(
+            {
+                entries[index].sequence
+                for index in range(at, until)
+                if not isinstance(entries[index].action, (SetMode, Drive))
+            }
+        ),
         closest=closest_call(states),
     )
 

@@ -7,9 +7,10 @@ from itertools import pairwise
 
 import pytest
 
+from sim.actions import SetMode
 from sim.config import Config
 from sim.session.timeline import Timeline
-from sim.types import Kind, Outcome
+from sim.types import Kind, Mode, Outcome
 from tests.narration.test_barred_rows import NARRATORS, YES_NO, told
 
 PAST = (
@@ -99,3 +100,20 @@ def test_events_are_told_in_their_order() -> None:
                 said = [int(each) for each in re.findall(r"(?:^Tick |; )(\d+):", str(answer["text"]))]
                 assert said == sorted(said)
                 assert said[-1] == answer["last"]
+
+
+def test_where_it_will_be_while_a_person_drives_is_told_of_the_planner() -> None:
+    timeline = driven(0, 2)
+    timeline.apply(1, [SetMode(mode=Mode.MANUAL)])
+    answer = told(timeline, "en", about="outlook", what="place_then", ticks=2)
+    assert answer["text"].startswith("You are driving; suppose I take over now.")
+    past = told(timeline, "en", about="outlook", what="place_then", tick=1)
+    assert past["text"].startswith("At tick 1")
+
+
+def test_a_drive_that_ends_at_the_very_tick_is_not_over_before_it() -> None:
+    timeline = Timeline(Config(columns=3, rows=6, vehicles=0, pedestrians=0, potholes=0))
+    answer = told(timeline, "en", about="outlook", what="place_then", tick=5)
+    assert answer["lane"] is None
+    assert "by tick 5 I arrive" in str(answer["text"])
+    assert told(timeline, "en", about="outlook", what="place_then", tick=4)["row"] == 1

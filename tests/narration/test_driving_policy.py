@@ -163,3 +163,14 @@ def test_where_another_one_will_be_is_where_it_is_then() -> None:
                 assert told["cell"] == list(then.cell)
                 compared += 1
     assert compared > 10
+
+
+def test_a_drive_by_hand_is_not_told_to_be_as_the_planner_would_drive_it() -> None:
+    timeline = by_hand([Move.STAY, Move.STAY, Move.FORWARD], potholes=0, vehicles=0)
+    for what in ("straight", "stand", "in_lane", "nonstop"):
+        text = NARRATORS["en"].answer(Asked(Ask(about="what_if", what=what), timeline))["text"]
+        assert "As it is" not in text
+        assert "so I drive anyway" not in text
+    alone = driven(3, potholes=0, vehicles=0)
+    text = NARRATORS["en"].answer(Asked(Ask(about="what_if", what="stand"), alone))["text"]
+    assert "As it is, I arrive" in text

@@ -123,7 +123,7 @@ def test_of_what_is_missed_the_nearest_is_told_first() -> None:
     told = answer(timeline, about="scene")
     missed = str(told["text"]).partition("I do not detect ")[2]
     metres = [int(each) for each in re.findall(r"(\d+) m ahead", missed)]
-    assert len(metres) == 3
+    assert 1 <= len(metres) <= 3
     assert metres == sorted(metres)
     world = timeline.state.world
     rows = [world.road.cell(world.av)[1] - thing.cell[1] for thing in world.things()]

@@ -161,4 +161,4 @@ def test_what_an_answer_shows_was_on_the_road() -> None:
 def test_back_further_than_there_are_ticks_is_said() -> None:
     timeline = next(drives())
     told = ask(timeline, {"about": "why", "ticks": 500})
-    assert told["text"] == f"There are only {timeline.tick} ticks so far."
+    assert told["text"] == f"It is only tick {timeline.tick} so far."

@@ -101,3 +101,15 @@ def test_the_closest_calls_of_a_kind_and_the_next_ones(code: str) -> None:
         assert second["closest_call"]["id"] != first["id"]
     for kind in ("vehicle", "pedestrian", "pothole"):
         checked(answer(timeline, code, what="closest_call", kind=kind)["text"])
+
+
+def test_the_mean_distance_says_of_how_many_it_is() -> None:
+    left_out = 0
+    for sensor, seed in [(sensor, seed) for sensor in SENSORS for seed in range(3)]:
+        told = answer(driven(seed, *sensor), what="sighted")
+        seen = [each for each in told["sightings"] if each["first_seen"] is not None]
+        ahead = [each for each in seen if each["rows_ahead"] > 0]
+        if len(ahead) < len(seen) and ahead:
+            assert f"counting the {len(ahead)} of {len(seen)}" in told["text"]
+            left_out += 1
+    assert left_out

@@ -106,3 +106,24 @@ def test_one_thing_in_the_way_of_two_moves_is_not_told_as_two(
     assert [words for words in another if words in told.replace("vehicle-7", "")] == []
     two = [Option(move, (0, 0), reasons[0], None, (f"vehicle-{move}",)) for move in moves]
     assert str(sayings.all_met(two, "then", OneName())) != told
+
+
+@pytest.mark.parametrize(
+    ("code", "text", "told"),
+    [
+        ("en", "There are only 1 ticks so far.", "There are only 1 tick so far."),
+        (
+            "en",
+            "Of 1 lane changes 1.1 moves, 21 ticks, 0.1 rows.",
+            "Of 1 lane change 1.1 moves, 21 ticks, 0.1 rows.",
+        ),
+        (
+            "en",
+            "At tick 1 cars came, in lane 1 things stood.",
+            "At tick 1 cars came, in lane 1 things stood.",
+        ),
+        ("de", "Von 1 Zügen, 11 Zügen und 1 Ticks", "Von 1 Zug, 11 Zügen und 1 Tick"),
+    ],
+)
+def test_one_is_not_told_as_many(code: str, text: str, told: str) -> None:
+    assert Sayings.load(code).with_ones(text) == told

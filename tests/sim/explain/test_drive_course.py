@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import pytest
 
+from sim.actions import Drive, Remove, SetMode
 from sim.config import Config
 from sim.decide import moves_where
 from sim.explain.drive_story import Happened, drive_story, what_went_wrong
@@ -18,7 +19,7 @@ from sim.explain.question_error import QuestionError
 from sim.explain.stays_free import stays_free
 from sim.session.timeline import Timeline
 from sim.transition import transition
-from sim.types import Move, Outcome
+from sim.types import Mode, Move, Outcome
 
 SEEDS = range(8)
 
@@ -136,6 +137,18 @@ def test_events_and_what_went_wrong_are_in_order_and_end_as_the_drive_did() -> N
         events = drive_story(timeline).events
         lanes = sum(each.ticks for each in events if each.what in (Happened.LEFT, Happened.RIGHT))
         assert lanes == len(track.across)
+
+
+def test_moves_by_hand_are_no_changes_of_the_road_in_a_story() -> None:
+    timeline = Timeline(Config(columns=5, rows=18, vehicles=6, seed=1))
+    for tick in range(6):
+        if tick in (1, 3):
+            timeline.apply(tick, [SetMode(mode=Mode.MANUAL), Drive(move=Move.STAY)])
+        if tick == 4:
+            timeline.apply(tick, [Remove(kind="vehicle", count=1)])
+        timeline.advance()
+    changed = [each.tick for each in drive_story(timeline).events if each.what is Happened.CHANGED]
+    assert changed == [4]
 
 
 def test_where_what_was_hit_was_before_the_crash() -> None:

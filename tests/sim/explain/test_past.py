@@ -8,14 +8,14 @@ from math import hypot
 
 import pytest
 
-from sim.actions import Add, Reset, SetMode
+from sim.actions import Add, Drive, Reset, SetMode
 from sim.config import Config
 from sim.explain.closest_call import closest_call, least_gap, ticks_to_contact
 from sim.explain.past import latest_crash, past
 from sim.rules.collision_geometry import SIZES, Path, first_contact
 from sim.session.timeline import Timeline
 from sim.state import SimState
-from sim.types import Kind, Mode, Outcome, kind_of
+from sim.types import Kind, Mode, Move, Outcome, kind_of
 
 SAMPLES = 400
 
@@ -115,8 +115,21 @@ def test_counts_are_those_of_a_recount(seed: int) -> None:
         assert found.ticks == last - first
         ends = [s.world.tick for s in states[first + 1 : last + 1] if s.world.ended == s.world.tick]
         assert [tick for tick, _ in found.ends] == ends
-        said = {entry.sequence for entry in timeline.entries if first <= entry.tick <= last}
+        said = {
+            entry.sequence
+            for entry in timeline.entries
+            if first <= entry.tick <= last and not isinstance(entry.action, SetMode)
+        }
         assert found.changes == len(said)
+
+
+def test_moves_by_hand_change_neither_the_road_nor_a_setting() -> None:
+    timeline = Timeline(Config(rows=12, vehicles=0, potholes=0))
+    for tick in range(4):
+        timeline.apply(tick, [SetMode(mode=Mode.MANUAL), Drive(move=Move.STAY)])
+        timeline.advance()
+    timeline.apply(9, [Add(kind="pothole", count=1)])
+    assert past(timeline, 0, 4).changes == 1
 
 
 @pytest.mark.parametrize("seed", range(6))
