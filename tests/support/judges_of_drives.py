@@ -449,7 +449,7 @@ def track(told: Told) -> Iterator[str]:
 
 
 def least_ttc(told: Told) -> Iterator[str]:
-    """By small steps of time: how long the motion of a tick leads to contact with what is ahead in the lane."""
+    """By small steps of time: how long the motion of a tick leads to contact with what is ahead."""
     if not told.has("ttc_s"):
         return
     states = told.record.episode
