@@ -2,7 +2,7 @@
 
     python -m tools.false_answers [--drives 20] [--seed 1] [--kinds near_misses,story] [--results FILE]
 
-Each sentence of `prompts/questions/en/kinds.yaml` is asked of each drive. What it is answered is judged by its
+Each sentence of `prompts/questions/en/kinds.yaml` is asked of each drive. It is judged by its
 form, and where a judge knows its kind by figures that are worked out anew from the recorded states, or by
 driving again with the engine that sessions use. Dear kinds are asked of a part of the drives.
 """
