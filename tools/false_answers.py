@@ -1,9 +1,9 @@
-"""Counts false answers to the canonical sentences, by kind of question, on very many drives of all sorts.
+"""Counts false answers to the canonical sentences, by kind of question, on very many drives.
 
-    python -m tools.false_answers [--drives 20] [--seed 1] [--kinds near_misses,story] [--results counted.jsonl]
+    python -m tools.false_answers [--drives 20] [--seed 1] [--kinds near_misses,story] [--results FILE]
 
-Every sentence of `prompts/questions/en/kinds.yaml` is asked of each drive. What it is answered is judged by
-its form, and where a judge knows its kind, by figures that are worked out anew from the recorded states, or by
+Each sentence of `prompts/questions/en/kinds.yaml` is asked of each drive. It is judged by its
+form, and where a judge knows its kind by figures that are worked out anew from the recorded states, or by
 driving again with the engine that sessions use. Dear kinds are asked of a part of the drives.
 """
 
@@ -136,7 +136,8 @@ def count(
             if wrong is not None:
                 false[kind] += 1
                 lines.append(
-                    f"{kind} | drive {number} of seed {seed}, tick {record.timeline.tick}, {record.outcome}, {record.config.planner}, {record.config.sensor}: {wrong}"
+                    f"{kind} | drive {number} of seed {seed}, tick {record.timeline.tick}, {record.outcome}, "
+                    f"{record.config.planner}, {record.config.sensor}: {wrong}"
                 )
         looked["drives"] += 1
     return looked, false, lines
@@ -166,7 +167,8 @@ def main() -> int:
             print(f"{kind:<30}{false[kind]:>6} of {looked[kind]}")
     forms = [kind for kind in looked if kind.startswith("form of ")]
     print(
-        f"form: {sum(false[kind] for kind in forms)} of {sum(looked[kind] for kind in forms)} in {len(forms)} kinds"
+        f"form: {sum(false[kind] for kind in forms)} of {sum(looked[kind] for kind in forms)} "
+        f"in {len(forms)} kinds"
     )
     if options.results is not None:
         with options.results.open("a", encoding="utf-8") as file:

@@ -102,7 +102,7 @@ class Policies:
         return self._say(key, end=end_told(self._sayings, found.real))
 
     def _went_otherwise(self, found: PolicyRun) -> bool:
-        """Whether it does not go, or did not, as the planner alone would have it: a person had a hand in it."""
+        """Whether it does not go as the planner alone would have it: a person has, or had, a hand in it."""
         return bool(found.said_since) or found.state.mode is Mode.MANUAL
 
     def _since(self, found: PolicyRun, tick: int) -> str:

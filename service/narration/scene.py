@@ -67,7 +67,7 @@ class Scenes:
         return plain(self._sayings, asked.ask, run, text) | found | misperception_json(wrong)
 
     def _with_hindsight(self, text: str, wrong: Misperception, run: SimState) -> str:
-        """What is seen, then what of it is not there and what is missed: as much of that as there is room for."""
+        """What is seen, then what of it is not there and what is missed, as far as there is room."""
         for most in (MAX_TOLD, 1):
             told = " ".join([text, *self._not_as_seen(wrong, run, most)])
             if len(told.split()) <= MOST_WORDS:

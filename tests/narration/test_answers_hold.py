@@ -1,4 +1,4 @@
-"""Answers to the canonical sentences hold by figures that are worked out anew, on a few drives of all sorts."""
+"""Answers to the canonical sentences hold by figures that are worked out anew, on a few drives."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Templates of sayings as they are read from their files: every key is a word, and every form is one there is."""
+"""Templates of sayings as they are read: every key is a word, and every form is one there is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What holds of every answer, whatever was asked: it is brief, whole, and its numbers are those of its facts."""
+"""What holds of every answer, whatever was asked: it is brief, whole and well-formed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Judges of what is said to come, or to have come otherwise: sessions are driven again with the public engine."""
+"""Judges of what is said to come, or to have come otherwise: sessions are driven again to see."""
 
 from __future__ import annotations
 
@@ -462,9 +462,10 @@ def influence(told: Told) -> Iterator[str]:
         other = next_world(before.world, (move,), before.config.with_parts(courtesy=0.0, attentive=0.0))
         for thing in before.world.things():
             one, rather = after.world.find(thing.id), other.find(thing.id)
-            if thing.heading is not None and one is not None and rather is not None:
-                if (one.cell, one.heading) != (rather.cell, rather.heading):
-                    found.append((tick, thing.id))
+            if thing.heading is None or one is None or rather is None:
+                continue
+            if (one.cell, one.heading) != (rather.cell, rather.heading):
+                found.append((tick, thing.id))
     yield from listed("swayed", sorted((each["tick"], each["id"]) for each in told["swayed"]), sorted(found))
     if told.yes is not None:
         yield from differ("yes", told.yes, bool(found))

@@ -63,11 +63,6 @@ def gap_cells(before: World, after: World, id: str) -> float | None:
     return min(gap(0.0), gap(1.0), gap((low + high) / 2))
 
 
-def touches(before: World, after: World, id: str) -> bool:
-    """Whether it is the one that was met."""
-    return after.outcome is Outcome.CRASH and after.cause is not None and id in after.cause.ids
-
-
 @lru_cache(maxsize=16)
 def gaps(record: Record, kind: Kind | None = None) -> list[tuple[int, str, float]]:
     """Tick, id and metres of each passing in the present episode, without contacts."""
@@ -454,7 +449,7 @@ def track(told: Told) -> Iterator[str]:
 
 
 def least_ttc(told: Told) -> Iterator[str]:
-    """By small steps of time: how long the motion of a tick leads to contact with what is ahead in the lane."""
+    """By small steps of time: how long the motion of a tick leads to contact with what is ahead."""
     if not told.has("ttc_s"):
         return
     states = told.record.episode

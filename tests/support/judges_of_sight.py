@@ -322,7 +322,7 @@ def row_of(told: Told) -> Iterator[str]:
     if not told.has("seen"):
         return
     record = told.record
-    column, row = record.state.world.road.cell(record.state.world.av)
+    _, row = record.state.world.road.cell(record.state.world.av)
     found = [
         cell for each, cell in believed(record, record.timeline.tick).values() if each is told.thing_kind
     ]
