@@ -36,7 +36,7 @@ class Fillers:
     def without(self, text: str) -> tuple[str, ...]:
         """The text with fewer and fewer of its fillers, and its last sentence alone; never the text itself.
 
-        A sentence that asks or supposes something is not left out, nor one before a few words that lean on it.
+        A sentence that asks or supposes something is not left out, nor one that a few words lean on.
         """
         found = [*self._shorter(text)]
         *before, last = [each for each in _SENTENCE.split(text.strip()) if each.strip()] or [""]

@@ -25,6 +25,8 @@ from tests.support.narration_checks import ids_in, looks_like_sentences
 NARRATORS = {"en": Narrator.load(), "de": Narrator.load().in_language("de")}
 ABOUTS = ("outlook", "blame", "planners", "sight", "world")
 LOOKING_BACK = ("runner_up", "scores", "waited", "differed", "before_crash")
+NAMING_MORE = ("safe", "coming", "difference", "detection", "parting", "lane", "stays_free", "place_then")
+"""What is asked with something named beside it."""
 YES_NO = {"en": ("Yes", "No"), "de": ("Ja", "Nein")}
 
 
@@ -59,13 +61,15 @@ def asks() -> list[Ask]:
         found += [
             Ask(about=about, what=what)  # type: ignore[arg-type]
             for what in WHATS[about]
-            if what not in ("safe", "coming", "difference", "detection", "parting", "lane")
+            if what not in NAMING_MORE
         ]
     found += [Ask(about="planners", what="difference", planners=("astar", "bfs"))]
     found += [Ask(about="planners", what="parting", planners=("astar", "bfs"))]
     found += [Ask(about="sight", what="detection", kind="pedestrian")]
     found += [Ask(about="outlook", what="lane", lane=2)]
     found += [Ask(about="outlook", what="coming", ticks=ticks) for ticks in (1, 7)]
+    found += [Ask(about="outlook", what="stays_free", move=move) for move in (Move.LEFT, Move.FORWARD)]
+    found += [Ask(about="outlook", what="place_then", ticks=4)]
     found += [Ask(about="history", what=what) for what in LOOKING_BACK]  # type: ignore[arg-type]
     return [*found, Ask(about="planners", what="here", planners=("astar", "dwa"))]
 

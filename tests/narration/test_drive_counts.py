@@ -98,7 +98,7 @@ def test_what_is_wanted_is_told(code: str, want: str) -> None:
 def test_ticks_that_never_were_are_said_to_be_none() -> None:
     timeline = driven(6)
     assert "no tick 99" in answer(timeline, what="stopped", tick=99)["text"]
-    assert "only 6 ticks" in answer(timeline, what="stopped", ticks=99)["text"]
+    assert "only tick 6" in answer(timeline, what="stopped", ticks=99)["text"]
     assert "too short" in answer(driven(1), what="stopped", part="second_half")["text"]
 
 
