@@ -24,18 +24,10 @@ from service.actions.evaluation import (
     ScenarioParts,
     Varied,
 )
-from service.actions.facts import FactName
+from service.actions.facts import FactName, Term
 from service.actions.goals import Goal, Style
-from service.actions.questions import (
-    QUESTIONS,
-    WHATS,
-    Choosable,
-    HistoryName,
-    MetricName,
-    QuestionName,
-    QuestionTraits,
-    Term,
-)
+from service.actions.question_names import Choosable, HistoryName, MetricName, QuestionName
+from service.actions.questions import QUESTIONS, WHATS, QuestionTraits
 from service.actions.steering import (
     Chat,
     ChatKind,

@@ -15,16 +15,10 @@ from pydantic import ConfigDict, Discriminator, TypeAdapter
 from pydantic_core import to_json
 
 from service.actions.evaluation import Advise, Evaluate, EvaluationTalk, FindWorst
-from service.actions.facts import FactName
+from service.actions.facts import FactName, Term
 from service.actions.goals import Goal, Style
 from service.actions.parameters import MAX_PARAMETERS, PhraseParameter, figure
-from service.actions.questions import (
-    COUNTED,
-    HISTORY_KEYS,
-    OF_A_KIND,
-    QUESTIONS,
-    WHAT_KEYS,
-    WHATS,
+from service.actions.question_names import (
     BlameName,
     Choosable,
     DetailName,
@@ -38,16 +32,23 @@ from service.actions.questions import (
     PlannersName,
     PolicyName,
     QuestionName,
-    QuestionTraits,
     ScaleName,
     SeedsName,
     SideName,
     SightName,
     SoFarName,
     SoonerName,
-    Term,
     WantName,
     WorldName,
+)
+from service.actions.questions import (
+    COUNTED,
+    HISTORY_KEYS,
+    OF_A_KIND,
+    QUESTIONS,
+    WHAT_KEYS,
+    WHATS,
+    QuestionTraits,
 )
 from service.actions.steering import (
     STRICT,

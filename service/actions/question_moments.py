@@ -11,8 +11,7 @@ from collections.abc import Mapping
 from typing import Final, Literal, get_args
 
 from service.actions.action import Ask
-from service.actions.questions import (
-    WHATS,
+from service.actions.question_names import (
     DeviceFactName,
     HandFactName,
     PlannersName,
@@ -21,6 +20,7 @@ from service.actions.questions import (
     WorldRuleName,
     WorldTruthName,
 )
+from service.actions.questions import WHATS
 
 Moment = Literal["decision", "state", "drive", "present", "none"]
 """`decision`: the one taken at the tick; `state`: how it stood then; `drive`: the whole episode of the tick;

@@ -12,7 +12,7 @@ from typing import Any, get_args
 from pydantic import ValidationError
 
 from service.actions import QUESTIONS, WHATS, ChatKind, Choosable, FactName, MetricName, Term, ViewName, load
-from service.actions.questions import (
+from service.actions.question_names import (
     DetailName,
     PartName,
     PolicyName,

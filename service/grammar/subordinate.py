@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, get_args
 
-from service.actions.questions import MomentName, PolicyName
+from service.actions.question_names import MomentName, PolicyName
 from service.actions.table import WhatIf, verbs_where
 from service.grammar.clause import Clause, Divided
 from service.grammar.clauses import SCENARIO

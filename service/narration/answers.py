@@ -7,8 +7,7 @@ from dataclasses import replace
 from typing import Final, get_args
 
 from service.actions import Ask, dump
-from service.actions.questions import (
-    OF_OTHERS,
+from service.actions.question_names import (
     DeviceFactName,
     HandFactName,
     PlannerFactName,
@@ -17,6 +16,7 @@ from service.actions.questions import (
     WorldRuleName,
     WorldTruthName,
 )
+from service.actions.questions import OF_OTHERS
 from service.narration.advice import Advices
 from service.narration.ahead import Outlooks
 from service.narration.answerer import Answerer, Json, not_so, plain

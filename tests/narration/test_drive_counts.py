@@ -8,7 +8,7 @@ from typing import Any, get_args
 import pytest
 
 from service.actions import Ask
-from service.actions.questions import PartName, WantName
+from service.actions.question_names import PartName, WantName
 from service.narration import Narrator
 from service.narration.answer_length import MOST_WORDS
 from service.sessions.facts import Asked

@@ -13,7 +13,7 @@ import pytest
 import yaml
 
 from service.actions import Ask
-from service.actions.questions import WantName
+from service.actions.question_names import WantName
 from service.narration import Narrator
 from service.narration.inflection import Inflected, join_forms
 from service.narration.sayings import Sayings
