@@ -70,6 +70,8 @@ class LanguageData:
     """how actions are said back; empty in a language that cannot"""
     stand_ins: Mapping[str, str]
     """words for things there are none of, and the word for what stands for each"""
+    asks_on: frozenset[str]
+    """words that begin a question to which a verb after "and" belongs"""
     vague: int
     number_words: frozenset[str]
     answers: Answers
@@ -197,6 +199,7 @@ def language_data(documents: Documents, lexicon: Lexicon) -> LanguageData:
         lexicon=lexicon,
         numbers=numbers,
         contractions=contractions,
+        asks_on=frozenset(words.get("asks_on", ())),
         typos=TypoRules.from_data(documents.typos),
         parameters=Parameters(
             {name: takes.split() for name, takes in words["parameters"].items()}, int(words["vague"])

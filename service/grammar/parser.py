@@ -16,7 +16,7 @@ from service.actions import Action, Ask, load
 from service.grammar.asking import Asking, once
 from service.grammar.clause import Clause, Divided
 from service.grammar.contradictions import contradiction
-from service.grammar.fragments import STOP, Fragment
+from service.grammar.fragments import AND, STOP, Fragment
 from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.noun_phrases import QUANTITY, add_noun_phrases
 from service.grammar.order import orders
@@ -81,6 +81,8 @@ class Reading(Asking):
         )
         if question is not None:
             return self._ask(question) if asking else self._refuse([self._plain], ())
+        if self._tokens[0].text in self._language.data.asks_on and _asks_and_acts(clauses):
+            return self._refuse([self._plain.strip()], (), asking=asking)
         if (denied := _denied_beside_question(clauses)) is not None:
             return self._refuse([self._written(denied.start, denied.end)], (), asking=asking)
         if not (found := orders(clauses, self._lattice)):
@@ -175,6 +177,17 @@ class Reading(Asking):
         if not isinstance(parsed, Understood):
             return None
         return Understood(self._text, parsed.actions, self._corrections, parsed.supposes)
+
+
+def _asks_and_acts(clauses: Sequence[Clause]) -> bool:
+    """Whether a question is followed by a request after "and" alone, which may be a part of it."""
+    return any(
+        bool(before.actions)
+        and all(action["do"] == "ask" for action in before.actions)
+        and clause.after == AND
+        and any(action["do"] == "drive" for action in clause.actions)
+        for before, clause in pairwise(clauses)
+    )
 
 
 def _denied_beside_question(clauses: Sequence[Clause]) -> Clause | None:

@@ -56,6 +56,7 @@ OWN_TABLES = {
     ("replies", "paths"),
     ("replies", "values"),
     ("words", "numbers"),
+    ("words", "ones"),
     ("words", "planners"),
     ("words", "things"),
 }
