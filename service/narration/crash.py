@@ -13,7 +13,7 @@ from service.narration.sayings import Sayings
 from service.narration.values import conditions_of
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
-from sim.explain.crash import Crash, why_crashed
+from sim.explain.crash import Crash, stood_there, why_crashed
 from sim.perceive.detection import detection_chance
 from sim.plan import Decision
 from sim.types import Move, kind_of
@@ -79,7 +79,7 @@ class Crashes:
             key = "swap"
         elif cause.how == "cross":
             key = "cross"
-        elif kind_of(ids[0]).fixed:
+        elif not stood and stood_there(crash.explanation.moment.world, cause, ids[0]):
             key = "into"
         else:
             key = "came" if stood else "met"

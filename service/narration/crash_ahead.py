@@ -9,7 +9,8 @@ from service.narration.inflection import capital
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from sim.explain.ahead import CrashAhead
-from sim.types import Move, kind_of
+from sim.explain.crash import stood_there
+from sim.types import Move
 
 
 class CrashesAhead:
@@ -57,7 +58,8 @@ class CrashesAhead:
         ids = [name for name in story.cause.ids if name != decision.av]
         key = story.cause.how
         if key not in ("swap", "cross"):
-            key = "came" if decision.move is Move.STAY else "into" if kind_of(ids[0]).fixed else "met"
+            into = stood_there(last.world, story.cause, ids[0])
+            key = "came" if decision.move is Move.STAY else "into" if into else "met"
         who = Naming(self._sayings, last, as_seen=False).things(ids)
         return self._say(key, who=who, do=self._sayings.move(decision.move, "do"))
 

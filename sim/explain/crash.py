@@ -99,6 +99,12 @@ class Crash:
         return self.made is not self.explanation.decision.move
 
 
+def stood_there(before: World, cause: Cause, name: str) -> bool:
+    """Whether a thing was in the cell of the crash already the tick before, so that it was driven into."""
+    thing = before.find(name)
+    return thing is not None and thing.cell == cause.cell
+
+
 class _LastTick:
     """The last tick again on roads that differ from its own: whether it ends in a crash."""
 
