@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from service.grammar import Language
+from service.grammar.free_text import TEACH
 from service.grammar.lattice import Edge, Lattice
 from service.grammar.tokens import Token, normalise, tokenise
 from service.yaml_files import read_yaml
@@ -69,6 +70,8 @@ class SlotWords:
         if not tokens:
             return Question((), {}, frozenset())
         lattice = language.scan(tokens)
+        if TEACH in lattice.concepts:  # "when I say …, I mean …" asks nothing
+            return Question((), {}, frozenset())
         spans = self._spans(tokens, lattice)
         words = _masked(tokens, spans)
         slots: dict[str, str] = {}
