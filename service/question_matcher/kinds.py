@@ -64,9 +64,13 @@ class QuestionKind:
         )
         return replace(self, says=tuple(says))
 
+    def is_turned(self, question: Question) -> bool:
+        """Whether a word of a question turns it round, so that it is not of this kind."""
+        return not self.unless.isdisjoint(question.words)
+
     def sentence(self, question: Question) -> str | None:
         """The sentence that uses all binding slots but the ignored ones; None where none does."""
-        if not self.unless.isdisjoint(question.words):
+        if self.is_turned(question):
             return None
         for said, words in self.with_words.items():
             if not words.isdisjoint(question.words):
@@ -82,7 +86,7 @@ class QuestionKind:
 
     def offered(self, question: Question) -> str | None:
         """The sentence to ask back with: it may leave slots out, but nothing turns it round."""
-        if not self.unless.isdisjoint(question.words):
+        if self.is_turned(question):
             return None
         fits = [each for each in self.says if each.slots <= question.slots.keys()]
         most = max(fits, key=lambda each: len(each.marks & question.binding), default=None)

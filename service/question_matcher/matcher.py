@@ -142,8 +142,12 @@ class QuestionMatcher:
         """What the order of the kinds says, the likeliest first; `cost` is taken from their certainty.
 
         A kind that no sentence fits, since it leaves a slot out, is no rival of one that is likelier; it is
-        asked about where it is much the likeliest.
+        asked about where it is much the likeliest. In place of one that a word turns round others are
+        offered.
         """
+        turned = self._kinds[order[0][1]].is_turned(question)
+        if turned:
+            order = [each for each in order if not self._kinds[each[1]].is_turned(question)]
         said = {name: self._kinds[name].sentence(question) for _, name in order}
         rivals = [(score, name) for score, name in order if said[name] or not self._kinds[name].says]
         (best, name), likeliest = rivals[0], order[0][0]
@@ -153,7 +157,7 @@ class QuestionMatcher:
                 return None
             said = {each: said[each] or self._kinds[each].offered(question) for each in said}
             rivals, best = list(order), likeliest
-        elif best == likeliest and (sentence := said[name]):
+        elif not turned and best == likeliest and (sentence := said[name]):
             certainty = self._scores.certainties({each: score for score, each in order})[name]
             if certainty - cost >= self._scores.least_sure:
                 return Match((sentence,), sure=True)

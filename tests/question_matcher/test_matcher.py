@@ -276,3 +276,11 @@ def test_what_hampers_is_told_from_what_does_not(language: Language) -> None:
     assert kind.sentence(words.question("would it have gone better without the fog?")) is not None
     dry = kind.sentence(words.question("if it had been clear, would we still have crashed?"))
     assert dry == "what if it were clear?"
+
+
+def test_where_a_word_turns_the_likeliest_kind_round_others_are_offered(matcher: QuestionMatcher) -> None:
+    match = matcher.match("what do the different shades of grey on the occupancy grid stand for", ("running",))
+    assert match is not None
+    assert not match.sure
+    assert "what does grey mean?" in match.sentences
+    assert "what do the colours mean?" not in match.sentences
