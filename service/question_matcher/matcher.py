@@ -145,7 +145,7 @@ class QuestionMatcher:
         asked about where it is much the likeliest. In place of one that a word turns round others are
         offered.
         """
-        turned = self._kinds[order[0][1]].is_turned(question)
+        turned = self._kinds[order[0][1]].is_turned(question) and not self._words.denies(question)
         if turned:
             order = [each for each in order if not self._kinds[each[1]].is_turned(question)]
         said = {name: self._kinds[name].sentence(question) for _, name in order}

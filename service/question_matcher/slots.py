@@ -118,6 +118,10 @@ class SlotWords:
         own = [word for word in question.words if word[0] != "<" and word not in self._data["openers"]]
         return bool(own) and (len(question.words) >= MIN_WORDS or len(own) > 1 or bool(question.binding))
 
+    def denies(self, question: Question) -> bool:
+        """Whether a word makes a question its contrary."""
+        return not set(self._data.get("negations", ())).isdisjoint(question.words)
+
     def is_a_name(self, text: str) -> bool:
         """Whether a text is one word, but for articles and the like: "fog", "the night"."""
         lead = {*self._data["determiners"], *self._data["indefinite"]}
