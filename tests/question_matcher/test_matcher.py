@@ -279,7 +279,9 @@ def test_what_hampers_is_told_from_what_does_not(language: Language) -> None:
 
 
 def test_where_a_word_turns_the_likeliest_kind_round_others_are_offered(matcher: QuestionMatcher) -> None:
-    match = matcher.match("what do the different shades of grey on the occupancy grid stand for", ("running",))
+    match = matcher.match(
+        "what do the different shades of grey on the occupancy grid stand for", ("running",)
+    )
     assert match is not None
     assert not match.sure
     assert "what does grey mean?" in match.sentences
