@@ -319,10 +319,10 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
     yield {"do": "ask", "about": "outlook", "what": "danger", "kind": "vehicle"}
     yield {"do": "ask", "about": "outlook", "what": "lane", "lane": 3}
     yield {"do": "ask", "about": "outlook", "what": "others_next", "kind": "pedestrian"}
-    for move in ("left", "right", "forward"):
-        for then in ({}, {"ticks": 3}, {"seconds": 2.5}):
-            yield {"do": "ask", "about": "outlook", "what": "stays_free", "move": move, **then}
-    for then in ({"ticks": 3}, {"seconds": 2.5}, {"tick": 15}):
+    spans: tuple[dict[str, Any], ...] = ({}, {"ticks": 3}, {"seconds": 2.5})
+    for side, then in product((Move.LEFT, Move.RIGHT, Move.FORWARD), spans):
+        yield {"do": "ask", "about": "outlook", "what": "stays_free", "move": side, **then}
+    for then in (*spans[1:], {"tick": 15}):
         yield {"do": "ask", "about": "outlook", "what": "place_then", **then}
     yield {"do": "ask", "about": "outlook", "what": "worst", "ticks": 3}
     yield {"do": "ask", "about": "outlook", "what": "worst", "seconds": 2.5}
