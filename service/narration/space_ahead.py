@@ -43,8 +43,8 @@ class SpaceAhead:
             if error.code in OWN_REFUSALS:
                 side = str(error.facts.get("move", "forward"))
                 parts = {key: value for key, value in error.facts.items() if key != "move"}
-                if "ticks" in parts:
-                    parts["ticks"] = self._counted(int(parts["ticks"]))
+                if isinstance(ticks := parts.get("ticks"), int):
+                    parts["ticks"] = self._counted(ticks)
                 told = self._say(error.code, side=self._say("sides", side), **parts)
             else:
                 told = not_so(self._sayings, error.code, error.facts)
