@@ -85,5 +85,5 @@ async def test_ticks_that_never_were_are_named() -> None:
     service.clock.tick(6)
     asked = {"do": "ask", "about": "history", "what": "seen"}
     assert "no tick 60" in await do(session, {**asked, "tick": 60})
-    assert "only 6 ticks" in await do(session, {**asked, "ticks": 7})
+    assert "only tick 6" in await do(session, {**asked, "ticks": 7})
     assert (await do(session, {**asked, "tick": 6})).startswith("At tick 6: ")
