@@ -54,8 +54,8 @@ _UNIONS: Final[dict[str, tuple[str, str]]] = {
 }
 """Unions that many fields have, each under its name: the type and the field that it is read from."""
 
-_UNSPOKEN = frozenset(("ego",))
-"""Fields for programs only: no sentence names an ego."""
+_UNSPOKEN = frozenset(("ego", "fact"))
+"""Fields that a model leaves out: no sentence names an ego, and facts are found by their own sentences."""
 
 
 @cache
