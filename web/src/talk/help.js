@@ -27,7 +27,7 @@ const HEADINGS = /** @type {[string, string[]][]} */ ([
   ["time", ["undo", "redo", "rewind", "save", "load"]],
   ["drive", ["mode", "drive"]],
   ["planners", ["ask planners", "style", "ask styles"]],
-  ["settings", ["set", "adjust", "prefer", "ask setting", "ask world", "ask term"]],
+  ["settings", ["set", "adjust", "prefer", "ask setting", "ask world", "ask term", "ask fact"]],
   ["views", ["show", "hide"]],
   ["advice", ["advise", "ask maintenance"]],
   ["rules", ["trigger", "cancel", "ask rules"]],
