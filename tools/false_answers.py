@@ -4,7 +4,8 @@
 
 Each sentence of `prompts/questions/en/kinds.yaml` is asked of each drive. It is judged by its
 form, and where a judge knows its kind by figures that are worked out anew from the recorded states, or by
-driving again with the engine that sessions use. Dear kinds are asked of a part of the drives.
+driving again with the engine that sessions use. Dear kinds are asked of a part of the drives. Of all other
+kinds the form alone is judged: the worst that may come, blame by rules, expectations, plans over time.
 """
 
 from __future__ import annotations

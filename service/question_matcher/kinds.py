@@ -72,10 +72,10 @@ class QuestionKind:
         """The sentence that uses all binding slots but the ignored ones; None where none does."""
         if self.is_turned(question):
             return None
-        for said, words in self.with_words.items():
-            if not words.isdisjoint(question.words):
-                return said
         binding = question.binding - self.ignores
+        for said, words in self.with_words.items():
+            if not binding and not words.isdisjoint(question.words):
+                return said
         fits = (
             each
             for each in self.says

@@ -1,9 +1,9 @@
 """Matches a question that the grammar refused to a sentence that it understands.
 
-The kind of the question is found by a classifier (`KindScores`); its
-slots are found by the lexicon. A match is a sentence of the grammar, which parses it: nothing but a question
-about the session can come of it, and the answer says as what it was read. A match is unsure where two kinds
-are near each other, or where a word occurs in no example.
+The kind of the question is found by a classifier (`KindScores`); its slots are found by the lexicon. A match
+is a sentence of the grammar, which parses it: nothing but a question about the session can come of it, and
+the answer says as what it was read. A match is unsure where two kinds are near each other, or where a word
+occurs in no example.
 """
 
 from __future__ import annotations

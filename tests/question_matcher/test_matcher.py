@@ -271,6 +271,13 @@ def test_some_words_choose_the_sentence_of_a_kind(text: str, sentence: str, lang
     assert kind.sentence(SlotWords(language, FOLDER).question(text)) == sentence
 
 
+def test_a_sentence_that_words_choose_leaves_no_slot_out(language: Language) -> None:
+    kind = read_kinds(FOLDER)["sensor_errors"]
+    question = SlotWords(language, FOLDER).question("were there any false alarms, ghosts, at tick 7?")
+    assert "tick" in question.binding
+    assert kind.sentence(question) is None
+
+
 def test_what_hampers_is_told_from_what_does_not(language: Language) -> None:
     words, kind = SlotWords(language, FOLDER), read_kinds(FOLDER)["what_if_cleared"]
     assert kind.sentence(words.question("would it have gone better without the fog?")) is not None
