@@ -30,11 +30,23 @@ from service.resources import prompts_folder
 from service.sessions.facts import Asked
 from service.yaml_files import read_yaml
 from sim.search.compiled_costs import load_compiled_costs
-from tests.support import judges_again, judges_of_drives, judges_of_sight
+from tests.support import (
+    judges_again,
+    judges_of_drives,
+    judges_of_futures,
+    judges_of_nearness,
+    judges_of_sight,
+)
 from tests.support.answer_judge import Judge, Told, formal
 from tests.support.recorded_drives import Record, any_records
 
-JUDGES: dict[str, Judge] = {**judges_of_drives.JUDGES, **judges_of_sight.JUDGES, **judges_again.JUDGES}
+JUDGES: dict[str, Judge] = {
+    **judges_of_drives.JUDGES,
+    **judges_of_nearness.JUDGES,
+    **judges_of_sight.JUDGES,
+    **judges_of_futures.JUDGES,
+    **judges_again.JUDGES,
+}
 DEAR = 0.12
 """The share of drives of which each dear kind is asked."""
 DEAR_S = 0.4

@@ -8,6 +8,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import hypot
 
 from sim.actions import Drive, SetMode
 from sim.config import Config
@@ -133,3 +134,20 @@ def any_records(seed: int) -> Iterator[Record]:
     draw = random.Random(f"answers {seed}")
     while True:
         yield any_record(draw)
+
+
+def move_of(record: Record, tick: int) -> Move:
+    """The step that was made in a tick."""
+    one, other = record.states[tick].world, record.states[tick + 1].world
+    (x, y), (u, v) = one.road.cell(one.av), other.road.cell(other.av)
+    return next(move for move in Move if move.offset == (u - x, v - y))
+
+
+def moves_of(record: Record) -> list[Move]:
+    """The steps of the present episode."""
+    return [move_of(record, tick) for tick in range(record.first, record.last)]
+
+
+def metres(record: Record) -> float:
+    """The length of the way."""
+    return sum(hypot(*move.offset) * record.config.cell_m for move in moves_of(record))
