@@ -31,7 +31,7 @@ from service.interpreter.question import Asked, answered, asked_by, only_doable
 from service.interpreter.question_reader import QuestionReader, situations
 from service.interpreter.sentence_cache import SentenceCache
 from service.llm.protocol import LanguageModel
-from service.problems import FieldProblem, Invalid, NotAQuestion, NotUnderstood
+from service.problems import FieldProblem, Invalid, NotAQuestion, NotUnderstood, ProblemError
 from service.refusals import refusals
 from service.resources import DEFAULT_LANGUAGE
 from service.server_timing import part
@@ -41,6 +41,8 @@ from service.sessions.pending import PendingChoice, PendingQuestion
 from service.sessions.preconditions import NO_PRECONDITIONS, Preconditions
 from service.sessions.session import Session
 from service.sessions.utterance import Outcome, Utterance
+from service.sessions.work_estimate import question_units
+from service.work.long_answers import LONG_UNITS
 from service.work.turn import TurnBudget
 from sim.actions import Scenario
 from sim.config import Config
@@ -178,10 +180,14 @@ class Interpreter:
         try:
             return replace(await self._interpret(text, session, code, field, at_tick), at_tick=at_tick)
         except Asked as problem:
-            if asks and session is not None:
-                session.pending = problem.question
-                problem.becomes_pending()
-            raise
+            if not asks or session is None:
+                raise
+            answered = (
+                await self._with_likely_answer(problem, session, at_tick) if problem.likely else problem
+            )
+            session.pending = answered.question
+            answered.becomes_pending()
+            raise answered from None
 
     async def _interpret(
         self, text: str, session: Session | None, code: str | None, field: str, at_tick: int | None
@@ -232,6 +238,22 @@ class Interpreter:
             supposes=question.parse.supposes,
             preface=question.preface,
         )
+
+    async def _with_likely_answer(self, problem: Asked, session: Session, at_tick: int | None) -> Asked:
+        """The problem with the answer to its first choice, where that is made soon and can be given."""
+        question = problem.question
+        likely = question.choices[0]
+        asks = [action for action in likely.actions if isinstance(action, Ask)]
+        if question_units(session.timeline, asks) >= LONG_UNITS:
+            return problem
+        utterance = Utterance(actions=likely.actions, language=question.language, at_tick=at_tick)
+        try:
+            outcome = await session.change(utterance, dry_run=True)
+        except ProblemError:
+            return problem
+        one = "" if len(question.choices) > 1 else "_one"
+        said = refusals(question.language).said(f"likely{one}", sentence=likely.text, answer=outcome.reply)
+        return Asked(question, said)
 
     async def interpret_question(
         self, text: str, session: Session | None, code: str | None = None, at_tick: int | None = None

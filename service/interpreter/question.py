@@ -19,11 +19,12 @@ from service.sessions.pending import PendingChoice, PendingQuestion
 class Asked(Ambiguous):
     """The problem of a sentence that is asked about, with the question as it may become pending."""
 
-    def __init__(self, question: PendingQuestion, detail: str | None = None) -> None:
-        """`detail`: what is said instead of the question alone."""
+    def __init__(self, question: PendingQuestion, detail: str | None = None, *, likely: bool = False) -> None:
+        """`detail`: what is said instead of the question alone; `likely`: whether the first choice is."""
         told = question.to_json()
         super().__init__(detail or question.question, choices=told["choices"], source=question.source)
         self.question = question
+        self.likely = likely
 
     def becomes_pending(self) -> None:
         """Note in the document that the session waits for the answer."""

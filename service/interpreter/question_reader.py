@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from anyio import CapacityLimiter, to_thread
@@ -13,7 +13,8 @@ from service.grammar.parse_types import Understood
 from service.grammar.topic import ALONE, Topic
 from service.interpreter.languages import Language, Languages
 from service.interpreter.question import Asked
-from service.question_matcher.matcher import QuestionMatcher
+from service.question_matcher.matcher import Match, QuestionMatcher
+from service.question_matcher.parts import Part
 from service.question_matcher.situations import Situation
 from service.refusals import refusals
 from service.sessions.pending import PendingChoice, PendingQuestion
@@ -76,47 +77,131 @@ class QuestionReader:
         language, matcher = self._languages[code], self._languages.matcher(code)
         if matcher is None:
             return None
-        last = topic.asked if topic.actions == topic.asked else ()
-        match = matcher.follow_up(text, last)
+        likeness = _Likeness(language, matcher, topic, now)
+        found = await to_thread.run_sync(likeness.of, text, limiter=self._parsing)
         words = refusals(code)
-        if match is None:
-            shorter = await to_thread.run_sync(
-                self._shortened, language, matcher, text, topic, limiter=self._parsing
-            )
-            if shorter is not None:
-                sentence, parse = shorter
+        match found:
+            case None:
+                return None
+            case _Read(sentence, parse, ""):
                 return Question(parse, code, "matched", words.said("read_as", sentence=sentence))
-            match = await to_thread.run_sync(matcher.match, text, now, limiter=self._parsing)
-        if match is None:
-            return None
-        read = [(sentence, language.parse(sentence, topic)) for sentence in match.sentences]
-        questions = [
+            case _Read(sentence, parse, left):
+                preface = words.said("read_as_part", sentence=sentence, left=left)
+                return Question(parse, code, "matched", preface)
+            case _Unsure(choices, likely) if asks:
+                said = (
+                    words.said("may_ask")
+                    if len(choices) > 1
+                    else words.said("may_ask_one", sentence=choices[0].text)
+                )
+                raise Asked(PendingQuestion(text, said, choices, "matched", code), likely=likely)
+            case _:
+                return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Read:
+    """A sentence that is understood, what it means, and what of the text it may leave unanswered."""
+
+    sentence: str
+    parse: Understood
+    left: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Unsure:
+    """What a text may ask; whether the first is likely (see `Match.likely`)."""
+
+    choices: tuple[PendingChoice, ...]
+    likely: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Likeness:
+    """Finds the sentences of one language that a text is like, at a point of a conversation."""
+
+    language: Language
+    matcher: QuestionMatcher
+    topic: Topic
+    now: frozenset[Situation]
+
+    def of(self, text: str) -> _Read | _Unsure | None:
+        """The question that a text is like, or the several that it may be; None where it is like none."""
+        last = self.topic.asked if self.topic.actions == self.topic.asked else ()
+        if (match := self.matcher.follow_up(text, last)) is not None:
+            return self._chosen(match)
+        if (shorter := self._shortened(text)) is not None:
+            return shorter
+        parts = self._parts(text)
+        read = [found for _, found in parts if found is not None]
+        if read and len(read) == len(parts):
+            return _joined(read)
+        match = self.matcher.match(text, self.now)
+        whole = None if match is None else self._chosen(match)
+        left = " ".join(part.text for part, found in parts if found is None and not part.is_stump)
+        match whole:
+            case _Read(sentence, parse) if any(each.parse.actions == parse.actions for each in read):
+                return _Read(sentence, parse, left)
+            case _Read():
+                return whole
+            case _ if read:
+                return replace(_joined(read), left=left)
+            case _:
+                return whole
+
+    def _parts(self, text: str) -> list[tuple[Part, _Read | None]]:
+        """The questions of a text that asks several, each with what it is like by itself, if that is sure."""
+        parts, found = self.matcher.parts(text), list[tuple[Part, _Read | None]]()
+        of_a_thing = False
+        for part in parts:
+            leans = part.leans or (part.leans_on_a_thing and of_a_thing)
+            found.append((part, None if leans else self._alone(part.text)))
+            of_a_thing = of_a_thing or part.asks_for_a_thing or self.matcher.names_a_thing(part.text)
+        return found
+
+    def _alone(self, text: str) -> _Read | None:
+        """What a text is surely like that asks one thing."""
+        if (parse := self._understood(text)) is not None:
+            return _Read(text, parse)
+        if (shorter := self._shortened(text)) is not None:
+            return shorter
+        match = self.matcher.match(text, self.now)
+        chosen = None if match is None else self._chosen(match)
+        return chosen if isinstance(chosen, _Read) else None
+
+    def _shortened(self, text: str) -> _Read | None:
+        """The first question that is understood once words are left out of a text."""
+        for each in self.matcher.shortened(text):
+            if (parse := self._understood(each)) is not None:
+                return _Read(each, parse)
+        return None
+
+    def _chosen(self, match: Match) -> _Read | _Unsure | None:
+        read = [
             (sentence, parse)
-            for sentence, parse in read
-            if isinstance(parse, Understood) and _only_asks(parse)
+            for sentence in match.sentences
+            if (parse := self._understood(sentence)) is not None
         ]
-        if not questions:
+        if not read:
             return None
         if match.sure:
-            sentence, parse = questions[0]
-            return Question(parse, code, "matched", words.said("read_as", sentence=sentence))
-        if not asks:
-            return None
-        choices = tuple(PendingChoice(sentence, parse.actions) for sentence, parse in questions)
-        said = (
-            words.said("may_ask") if len(choices) > 1 else words.said("may_ask_one", sentence=choices[0].text)
-        )
-        raise Asked(PendingQuestion(text, said, choices, "matched", code))
+            return _Read(*read[0])
+        choices = tuple(PendingChoice(sentence, parse.actions) for sentence, parse in read)
+        return _Unsure(choices, match.likely and read[0][0] == match.sentences[0])
 
-    def _shortened(
-        self, language: Language, matcher: QuestionMatcher, text: str, topic: Topic
-    ) -> tuple[str, Understood] | None:
-        """The first question that is understood once words are left out of a text."""
-        for each in matcher.shortened(text):
-            parse = language.parse(each, topic)
-            if isinstance(parse, Understood) and _only_asks(parse):
-                return each, parse
-        return None
+    def _understood(self, text: str) -> Understood | None:
+        """A text's meaning where it is understood and does nothing but ask."""
+        parse = self.language.parse(text, self.topic)
+        return parse if isinstance(parse, Understood) and _only_asks(parse) else None
+
+
+def _joined(read: Sequence[_Read]) -> _Read:
+    """Several questions as one text: each is answered, and none twice."""
+    told = list({each.parse.actions: each for each in read}.values())
+    sentence = " ".join(each.sentence for each in told)
+    actions = tuple(action for each in told for action in each.parse.actions)
+    supposes = next((each.parse.supposes for each in told if each.parse.supposes), None)
+    return _Read(sentence, Understood(sentence, actions, supposes=supposes))
 
 
 _OF_OUTCOMES: Final[Mapping[Outcome, Situation]] = {

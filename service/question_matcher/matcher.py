@@ -23,6 +23,7 @@ from service.question_matcher.fillers import Fillers
 from service.question_matcher.follow_ups import FollowUps
 from service.question_matcher.kind_scores import KindScores
 from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, read_kinds
+from service.question_matcher.parts import Part, Parts
 from service.question_matcher.situations import Situation
 from service.question_matcher.slots import Question, SlotWords
 from sim.actions import Pause, Reset
@@ -38,12 +39,17 @@ UNUSUAL = 1.0
 MOST_UNKNOWN = 4
 MIN_LETTERS = 4
 """Shorter words are not looked for among the known ones."""
+LEAST_LIKELY = 0.0
+"""Least certainty of a question whose answer is given beside the question back."""
 MAX_CHOICES = 3
 MAX_WORDS = 60
 MOST_FOLLOWING = 60
 """Letters of a follow-up."""
 MOST_SHORTENED = 300
 """Letters of a question that words are left out of."""
+MOST_IN_PARTS = 300
+"""Letters of a text that is read in parts."""
+_THINGS = frozenset(("<thing>", "<things>"))
 _CLOCK = (Pause, Resume, Reset, Undo)
 
 
@@ -53,6 +59,8 @@ class Match:
 
     sentences: tuple[str, ...]
     sure: bool
+    likely: bool = False
+    """whether the first is likelier than all else, and says all that the question does"""
 
 
 class QuestionMatcher:
@@ -71,6 +79,7 @@ class QuestionMatcher:
             "_scores",
             "_follow_ups",
             "_fillers",
+            "_parts",
         ):  # made when they are first read
             getattr(self, table)
 
@@ -94,6 +103,10 @@ class QuestionMatcher:
     def _fillers(self) -> Fillers:
         return Fillers(self._folder)
 
+    @cached_property
+    def _parts(self) -> Parts:
+        return Parts(self._folder)
+
     def follow_up(self, text: str, asked: Sequence[Action]) -> Match | None:
         """What a few words ask after the last question; None where they are no follow-up."""
         if len(text) > MOST_FOLLOWING or (found := self._follow_ups.match(text, asked)) is None:
@@ -106,6 +119,16 @@ class QuestionMatcher:
         if len(text) > MOST_SHORTENED or self._holds_a_request(text):
             return ()
         return self._fillers.without(text)
+
+    def parts(self, text: str) -> tuple[Part, ...]:
+        """The questions of a text that asks two or three; empty where it asks one, or holds a request."""
+        if len(text) > MOST_IN_PARTS or self._holds_a_request(text):
+            return ()
+        return self._parts.of(text)
+
+    def names_a_thing(self, text: str) -> bool:
+        """Whether a text names a thing on the road other than the vehicle."""
+        return not _THINGS.isdisjoint(self._words.question(text).words)
 
     def match(self, text: str, situations: Collection[Situation] = ()) -> Match | None:
         """What a question may stand for in some situations; None where it is like none that has an answer."""
@@ -150,7 +173,7 @@ class QuestionMatcher:
             order = [each for each in order if not self._kinds[each[1]].is_turned(question)]
         said = {name: self._kinds[name].sentence(question) for _, name in order}
         rivals = [(score, name) for score, name in order if said[name] or not self._kinds[name].says]
-        (best, name), likeliest = rivals[0], order[0][0]
+        (best, name), likeliest, likely = rivals[0], order[0][0], False
         floor = next(score for score, each in order if each == NONE_OF_THEM) + LIKELY + cost
         if said[name] is None or likeliest - best >= NEAR:
             if likeliest < floor:
@@ -158,12 +181,13 @@ class QuestionMatcher:
             said = {each: said[each] or self._kinds[each].offered(question) for each in said}
             rivals, best = list(order), likeliest
         elif not turned and best == likeliest and (sentence := said[name]):
-            certainty = self._scores.certainties({each: score for score, each in order})[name]
-            if certainty - cost >= self._scores.least_sure:
+            certainty = self._scores.certainties({each: score for score, each in order})[name] - cost
+            if certainty >= self._scores.least_sure:
                 return Match((sentence,), sure=True)
+            likely = certainty >= LEAST_LIKELY
         offered = (said[each] for score, each in rivals if score >= max(floor, best - NEAR))
         near = tuple(dict.fromkeys(filter(None, offered)))[:MAX_CHOICES]
-        return Match(near, sure=False) if near else None
+        return Match(near, sure=False, likely=likely) if near else None
 
     def _holds_a_request(self, text: str) -> bool:
         """Whether a part of a text asks for something to be done: nothing of that may be left out."""

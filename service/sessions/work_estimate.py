@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
-from service.actions import QUESTIONS, Action, Goal
+from service.actions import QUESTIONS, Action, Ask, Goal
 from service.sessions.facts import Asked, Fact, question_timelines
 from service.sessions.transaction import Transaction, step_ticks
 from service.store import EntryRecord
@@ -13,6 +13,7 @@ from service.work.units import move_units, replay_units, search_units, state_tic
 from sim.config import Config
 from sim.plan import traits_of
 from sim.planner_names import ALIASES, BUILT_IN
+from sim.session.timeline import Timeline
 from sim.state import SimState
 
 LARGE_CELLS: Final = 1_000
@@ -69,6 +70,11 @@ def answer_units(run: SimState, facts: tuple[Fact, ...]) -> int:
     road = run.world.road
     cells = road.columns * road.rows
     return ticks * len(run.egos) * max(tick_units(cells, planner) for planner in planners)
+
+
+def question_units(timeline: Timeline, asks: Sequence[Ask]) -> int:
+    """Units of answering some questions about a drive."""
+    return answer_units(timeline.state, tuple(Asked(ask, timeline) for ask in asks))
 
 
 def log_units(config: Config, entries: Sequence[EntryRecord], tick: int) -> int:
