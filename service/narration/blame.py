@@ -143,8 +143,12 @@ class Blames:
         who = self._hit(found.crash, found.state)
         since = found.expected_since
         if since is None:
-            key = "unseen" if found.seen_since is None else "elsewhere"
-            return self._say("foreseen", key, who=who, **first)
+            if found.seen_since is None:
+                return self._say("foreseen", "unseen", who=who, **first)
+            ticks = found.crash.end - found.seen_since
+            key = "elsewhere_longer" if ticks > LOOK_BACK else "elsewhere"
+            seconds = self._seconds(min(ticks, LOOK_BACK), found.state)
+            return self._say("foreseen", key, who=who, seconds=seconds, **first)
         before = found.crash.end - since
         seconds = self._seconds(before, found.state)
         key = "late" if before == 1 else "expected"

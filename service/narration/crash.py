@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from service.contract.encode.explanation import crash_json
 from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.answerer import Json, not_so, plain
@@ -14,8 +16,10 @@ from service.narration.values import conditions_of
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.crash import Crash, stood_there, why_crashed
+from sim.explain.expectation import Expected, expectation_of
 from sim.perceive.detection import detection_chance
 from sim.plan import Decision
+from sim.session.timeline import Timeline
 from sim.types import Move, kind_of
 
 MOST_TOLD = 3
@@ -45,13 +49,16 @@ class Crashes:
                 self._sayings,
                 asked.ask,
                 asked.timeline.state,
-                self.text(crash, detailed=asked.length == "longer"),
+                self.text(crash, _expected(crash, asked.timeline), detailed=asked.length == "longer"),
             )
             told |= crash_json(crash, texts)
         return told | {"question": self._say("question" if tick is None else "question_at", tick=tick)}
 
-    def text(self, crash: Crash, *, detailed: bool = False) -> str:
-        """A crash in a few sentences; `detailed` leaves nothing out for the sake of brevity."""
+    def text(self, crash: Crash, expected: Sequence[Expected] = (), *, detailed: bool = False) -> str:
+        """A crash in a few sentences; `detailed` leaves nothing out for the sake of brevity.
+
+        `expected`: what was expected of the things that were hit.
+        """
         decision = crash.explanation.decision
         naming = Naming(self._sayings, crash.explanation.moment, as_seen=False)
         text = ""
@@ -59,7 +66,8 @@ class Crashes:
             flips = self._flips(crash, naming, told)
             parts = [
                 Part(0, self._happened(crash, decision, naming)),
-                *(Part(1, each) for each in self._not_as_seen(crash, naming)),
+                Part(1, self._unexpected(expected)),
+                *self._not_as_seen(crash, naming),
                 Part(1, self._by_whom(decision)),
                 Part(1, self._slipped(crash)),
                 Part(2 if crash.free else 4, self._otherwise(crash, decision, naming)),
@@ -86,20 +94,30 @@ class Crashes:
         did = self._sayings.move(crash.made, "did")
         return self._say(key, tick=crash.end, did=did, who=naming.things(ids))
 
-    def _not_as_seen(self, crash: Crash, naming: Naming) -> list[str]:
-        """What was there and not detected, and what was detected and not there."""
+    def _unexpected(self, expected: Sequence[Expected]) -> str:
+        """What a thing that was hit did otherwise than was expected of it, where it was seen."""
+        other = next(
+            (each for each in expected if each.detected and each.expected not in (None, each.went)), None
+        )
+        if other is None or other.step is None:
+            return ""
+        step = self._say("expected", "step", other.step)
+        return self._say("expected", "told", step=step, did=self._say("expected", "did", other.did))
+
+    def _not_as_seen(self, crash: Crash, naming: Naming) -> list[Part]:
+        """What was there and not detected, and what was detected and not there; what was hit comes first."""
         hit = [name for name in crash.missed if name in crash.cause.ids]
         others = [name for name in crash.missed if name not in hit]
-        told = [self._say("missed", "one" if len(hit) == 1 else "many")] if hit else []
+        told = [Part(1, self._say("missed", "one" if len(hit) == 1 else "many"))] if hit else []
         if hit and (told_by := self._missed_by(crash, hit[0])):
-            told.append(told_by)
+            told.append(Part(1, told_by))
         if others:
             key = "missed_others" if hit else "missed_besides"
-            told.append(self._say(key, who=naming.things(others)))
+            told.append(Part(3, self._say(key, who=naming.things(others))))
         seen = Naming(self._sayings, crash.explanation.moment)
         imagined = seen.imagined([cause.id for cause in crash.explanation.causes])
         phrases = dict.fromkeys(self._sayings.imagined(name, where) for name, where in imagined.items())
-        return told + [self._say("imagined", told=phrase) for phrase in phrases]
+        return told + [Part(1, self._say("imagined", told=phrase)) for phrase in phrases]
 
     def _missed_by(self, crash: Crash, name: str) -> str:
         """Under which conditions a thing was not detected, and how often one look detects such."""
@@ -215,3 +233,11 @@ class Crashes:
 
     def _say(self, *keys: str, **parts: object) -> str:
         return self._sayings.say("crash", *keys, **parts)
+
+
+def _expected(crash: Crash, timeline: Timeline) -> Sequence[Expected]:
+    """What was expected of what was hit; nothing where that was another ego."""
+    try:
+        return expectation_of(crash, timeline).found
+    except QuestionError:
+        return ()

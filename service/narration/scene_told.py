@@ -49,12 +49,20 @@ class SceneTold:
         outcome = self._run.world.outcome
         if outcome is not Outcome.RUNNING:
             word = self._sayings.say("answers", "outcomes", outcome)
-            return f"{self.say('ended', outcome=word)} {self._counts()}"
+            return " ".join(
+                filter(None, [self.say("ended", outcome=word), self._counts(), self._straight_on()])
+            )
         told = [Part(0, part) for part in (self._counts(), self._way()) if part]
         others = [thing for thing in self._scene.seen if thing.ticks is None and thing.rows >= 0]
         if others and len(self._scene.seen) > 1:
             told.append(Part(1, self.say("nearest", thing=self.near(others[0]))))
         return within(told, MOST_WORDS - FEW_BEFORE)
+
+    def _straight_on(self) -> str:
+        """The nearest thing ahead in the own lane; empty where there is none."""
+        ahead = [thing for thing in self._scene.seen if thing.lanes == 0 and thing.rows > 0]
+        nearest = min(ahead, key=lambda thing: thing.rows, default=None)
+        return "" if nearest is None else self.say("straight_on", thing=self.near(nearest))
 
     def agreed(self, asked: str) -> str:
         """All of it, after whether there is `anything` or the way straight on is `clear`."""

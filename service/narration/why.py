@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from service.contract.encode.explanation import explanation_json
-from service.narration.answer_length import MOST_WORDS, most_words
+from service.narration.answer_length import most_words
 from service.narration.answerer import Json, not_so, plain
 from service.narration.crash import Crashes
 from service.narration.explanation import Explained
@@ -47,27 +47,26 @@ class Whys:
         except QuestionError as error:
             text = not_so(self._sayings, error.code, error.facts)
             return plain(self._sayings, ask, timeline.state, f"{text}{self._paused(asked)}")
+        end = self._end(asked, explanation.decision.move)
         text = self._explained.text(
             explanation,
             detailed=asked.length == "longer",
-            most=most_words(asked.length),
+            most=most_words(asked.length) - len(end.split()),
             now=timeline.tick if ask.tick is None else None,
         )
-        text = self._with_end(text, asked, explanation.decision.move)
+        text = f"{text} {end}" if end else text
         return plain(self._sayings, ask, timeline.state, text) | explanation_json(
             explanation, self._options.texts(explanation.decision)
         )
 
-    def _with_end(self, text: str, asked: Asked, move: Move) -> str:
-        """A text, and what the move led to where the drive ended by it; not where that makes it too long."""
+    def _end(self, asked: Asked, move: Move) -> str:
+        """What a move led to, where the drive ended by it."""
         ask, world = asked.ask, asked.timeline.state.world
-        end = ""
         if ask.about == "why_not" and led_to_crash(asked.timeline, ask.tick):
-            end = self._sayings.say("why", "ended_in_crash")
-        elif ask.tick is None and move is Move.STAY and world.outcome is Outcome.STUCK:
-            end = self._sayings.say("why", "ended_stuck")
-        told = f"{text} {end}" if end else text
-        return text if len(told.split()) > MOST_WORDS else told
+            return self._sayings.say("why", "ended_in_crash")
+        if ask.tick is None and move is Move.STAY and world.outcome is Outcome.STUCK:
+            return self._sayings.say("why", "ended_stuck")
+        return ""
 
     def _paused(self, asked: Asked) -> str:
         """That the clock stands, where it is asked why it stopped and no stop of the drive is the reason."""

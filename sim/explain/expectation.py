@@ -78,7 +78,11 @@ def expectation(timeline: Timeline, tick: int | None = None) -> Expectation:
 
     `no_crash_then` also where nothing but another ego was hit.
     """
-    crash = why_crashed(timeline, tick)
+    return expectation_of(why_crashed(timeline, tick), timeline)
+
+
+def expectation_of(crash: Crash, timeline: Timeline) -> Expectation:
+    """Of a crash of a timeline. Raises `QuestionError` (`no_crash_then`) where only another ego was hit."""
     decision, before = crash.explanation.decision, crash.explanation.moment
     taken = timeline.taken(before, decision.av)
     if taken is None:
