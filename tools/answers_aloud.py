@@ -114,7 +114,7 @@ def main() -> int:
             if not isinstance(parsed, Understood):
                 print(f"not understood: {question}")
                 continue
-            asked = Asked(parsed.actions[0], timeline, supposes=parsed.supposes)  # type: ignore[arg-type]
+            asked = Asked(parsed.actions[0], timeline, supposes=parsed.supposed(0))  # type: ignore[arg-type]
             text = answers.answer(asked)["text"]
             lengths.append(len(text.split()))
             wrong = faults(text, question)

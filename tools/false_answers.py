@@ -106,8 +106,8 @@ def told_of(record: Record, kind: str, sentence: str, draw: random.Random) -> To
     parsed = _language().parse(question)
     if not isinstance(parsed, Understood) or not isinstance(parsed.actions[0], Ask):
         return None
-    asked = Asked(parsed.actions[0], record.timeline, supposes=parsed.supposes)
-    return Told(record, kind, question, parsed.supposes, _narrator().answer(asked), slots)
+    asked = Asked(parsed.actions[0], record.timeline, supposes=parsed.supposed(0))
+    return Told(record, kind, question, parsed.supposed(0), _narrator().answer(asked), slots)
 
 
 def judged(

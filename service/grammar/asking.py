@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
@@ -32,21 +32,30 @@ CHOICE_STEPS = 10
 """What one action of a choice costs: it is validated, and said back."""
 
 
-def once(
-    clauses: Sequence[Clause], tokens: Sequence[Token]
-) -> tuple[list[dict[str, Any]], tuple[tuple[Span, ...], ...]]:
-    """All actions and the words of each, without what is only said again: "stop, hold on" pauses once."""
+class Said(NamedTuple):
+    """The actions of an utterance; of each the words that made it, and what it supposes."""
+
+    values: list[dict[str, Any]]
+    spans: tuple[tuple[Span, ...], ...]
+    supposes: tuple[str | None, ...]
+
+
+def once(clauses: Sequence[Clause], tokens: Sequence[Token]) -> Said:
+    """All that is said, without what is only said again: "stop, hold on" pauses once."""
     values: list[dict[str, Any]] = []
     spans: list[tuple[Span, ...]] = []
+    supposes: list[str | None] = []
     for clause in clauses:
         again = bool(values) and clause.after in _EMPHASIS and clause.actions == values[-1:]
+        again = again and clause.supposes in (supposes[-1], None)
         said = alignment(clause.filled, clause.actions, tokens)
         if again and (clause.actions[0]["do"] in _STEADY or _names_again(clause)):
             spans[-1] += said[0]
         else:
             values += clause.actions
             spans += said
-    return values, tuple(spans)
+            supposes += [clause.supposes] * len(clause.actions)
+    return Said(values, tuple(spans), tuple(supposes))
 
 
 def _names_again(clause: Clause) -> bool:
@@ -100,7 +109,7 @@ class Asking(Refusing):
         together = [replace(clause, instead=()) for clause in clauses]
         apart = [*together[:at], *unsure.instead, *together[at + 1 :]]
         try:
-            choices = [self._choice(once(each, self._tokens)[0]) for each in (together, apart)]
+            choices = [self._choice(once(each, self._tokens).values) for each in (together, apart)]
         except (Unsayable, ValidationError):  # nothing to choose from
             choices = []
         if asking and len(choices) > 1:
@@ -112,7 +121,7 @@ class Asking(Refusing):
     def _which_order(self, readings: Sequence[Sequence[Clause]], *, asking: bool) -> Parse:
         """The question in which order requests shall be done."""
         try:
-            choices = [self._choice(once(each, self._tokens)[0]) for each in readings]
+            choices = [self._choice(once(each, self._tokens).values) for each in readings]
         except (Unsayable, ValidationError):  # nothing to choose from
             choices = []
         if asking and len(choices) > 1:
@@ -200,7 +209,7 @@ class Asking(Refusing):
     def _offer(self, readings: Sequence[Sequence[Clause]], question: str) -> Ambiguous | None:
         """A question with these readings to choose from; None where they cannot all be said."""
         try:
-            choices = [self._choice(once(each, self._tokens)[0]) for each in readings]
+            choices = [self._choice(once(each, self._tokens).values) for each in readings]
         except (Unsayable, ValidationError):
             return None
         return Ambiguous(self._text, question, tuple(choices))

@@ -12,6 +12,7 @@ from dataclasses import replace
 from service.actions import Advise, Ask
 from service.actions.table import traits_of
 from service.grammar.answer_words import INSTEAD, NO, PREFACE
+from service.grammar.distance_of_it import of_the_thing
 from service.grammar.engine import Language
 from service.grammar.foil_follow_up import ask_of_foil
 from service.grammar.incomplete import ask_elsewhere, ask_what_is_missing
@@ -42,6 +43,10 @@ def read_in_conversation(language: Language, text: str, topic: Topic, parsed: Pa
     A sentence that is understood by itself means that, but for a short one that goes on with a question:
     "and left?" asks the same of the left.
     """
+    if topic.asked and isinstance(parsed, Understood):
+        tokens = tokenise(normalise(text), language.data.contractions)
+        if (of_thing := of_the_thing(language.scan(tokens), tokens, topic, parsed)) is not parsed:
+            return of_thing
     alone = isinstance(parsed, Refused) and parsed.reason == "not_understood"
     if (alone or topic.looks_back) and (of_moment := read_of_this_moment(language, text, topic)):
         return of_moment

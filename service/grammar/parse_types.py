@@ -28,10 +28,15 @@ class Understood:
     text: str
     actions: tuple[Action, ...]
     corrections: tuple[Correction, ...] = ()
-    supposes: str | None = None
-    """what a question takes for granted beyond its actions: "why did you crash" a `crash`"""
+    supposes: tuple[str | None, ...] = ()
+    """for each action what it takes for granted beyond its keys, as "why did you crash" does a `crash`; empty
+    where none does"""
     alignment: tuple[tuple[Span, ...], ...] = ()
     """for each action the words that made it; empty where one part of the sentence corrects another"""
+
+    def supposed(self, at: int) -> str | None:
+        """What the action at a place takes for granted."""
+        return self.supposes[at] if self.supposes else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,7 @@ from service.actions import Action, Ask, load
 from service.grammar.asking import Asking, once
 from service.grammar.clause import Clause, Divided
 from service.grammar.contradictions import contradiction
+from service.grammar.distance_of_it import without_distance_again
 from service.grammar.fragments import AND, STOP, Fragment
 from service.grammar.lattice import GLUE, Edge, Lattice
 from service.grammar.noun_phrases import QUANTITY, add_noun_phrases
@@ -94,7 +95,8 @@ class Reading(Asking):
             return self._answer_contradiction(both, asking=asking)
         if otherwise:
             return self._which_order((clauses, *otherwise), asking=asking)
-        values, spans = once(clauses, self._tokens)
+        clauses = without_distance_again(clauses, self._lattice, self._tokens)
+        values, spans, supposes = once(clauses, self._tokens)
         if not values:
             return self._refusal("negation", self._messages["negation"])
         if self._drives_a_thing(values):
@@ -115,7 +117,6 @@ class Reading(Asking):
                 return meant
         if (readings := place_for_all(clauses)) is not None:
             return self._which_place(readings, asking=asking)
-        supposes = next((each.supposes for each in clauses if each.actions and each.supposes), None)
         return Understood(
             self._text, actions, (*self._corrections, *self._stand_ins(actions)), supposes, spans
         )

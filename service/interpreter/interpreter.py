@@ -69,7 +69,7 @@ class ParsedCommand:
     corrections: tuple[Correction, ...] = ()
     source: Source = "grammar"
     language: str = DEFAULT_LANGUAGE
-    supposes: str | None = None
+    supposes: tuple[str | None, ...] = ()
     preface: str = ""
     """what the reply begins with: as what the text was read, where that is not plain"""
     at_tick: int | None = None

@@ -197,10 +197,10 @@ class _Likeness:
 
 def _joined(read: Sequence[_Read]) -> _Read:
     """Several questions as one text: each is answered, and none twice."""
-    told = list({each.parse.actions: each for each in read}.values())
+    told = list({(each.parse.actions, each.parse.supposes): each for each in read}.values())
     sentence = " ".join(each.sentence for each in told)
     actions = tuple(action for each in told for action in each.parse.actions)
-    supposes = next((each.parse.supposes for each in told if each.parse.supposes), None)
+    supposes = tuple(each for one in told for each in one.parse.supposes or (None,) * len(one.parse.actions))
     return _Read(sentence, Understood(sentence, actions, supposes=supposes))
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
 from service import actions as contract
-from service.actions import QUESTIONS
+from service.actions import QUESTIONS, Ask
 from service.sessions.facts import (
     Answerable,
     Asked,
@@ -42,12 +42,7 @@ def make_outcome(
     `narrator`: the session's; the reply is in the language of the utterance, the log in that of the session.
     """
     own = narrator if utterance.language is None else narrator.in_language(utterance.language)
-    facts = tuple(
-        replace(fact, supposes=utterance.supposes, viewed=utterance.at_tick)
-        if isinstance(fact, Asked)
-        else fact
-        for fact in facts
-    )
+    facts = tuple(_as_supposed(facts, utterance))
     answers, said = _narrate(own, facts)
     as_replayed = tuple(spread_facts(facts))
     alike = own is narrator and not any(isinstance(fact, Resolved | JobAsked | JobTold) for fact in facts)
@@ -66,6 +61,22 @@ def make_outcome(
         changes=merge_changes(facts),
         before=before,
     )
+
+
+def _as_supposed(facts: tuple[Fact, ...], utterance: Utterance) -> Iterator[Fact]:
+    """The facts of an utterance, its questions with what each of them supposes."""
+    asks = [
+        (action.about, said)
+        for action, said in zip(utterance.actions, utterance.supposes, strict=False)
+        if isinstance(action, Ask)
+    ]
+    for fact in facts:
+        if not isinstance(fact, Asked):
+            yield fact
+            continue
+        at = next((at for at, (about, _) in enumerate(asks) if about == fact.ask.about), None)
+        supposes = None if at is None else asks.pop(at)[1]
+        yield replace(fact, supposes=supposes, viewed=utterance.at_tick)
 
 
 def _narrate(narrator: NarratorProtocol, facts: tuple[Fact, ...]) -> tuple[list[dict[str, Any]], str]:

@@ -23,11 +23,11 @@ ANSWERED: Final = Ask(about="world", what="endings")
 
 def as_it_stands(utterance: Utterance, timeline: Timeline) -> Utterance:
     """The utterance as it is meant in the present state."""
-    if utterance.supposes != PERMISSION or timeline.state.world.outcome is Outcome.RUNNING:
+    if PERMISSION not in utterance.supposes or timeline.state.world.outcome is Outcome.RUNNING:
         return utterance
     actions: list[Action] = []
     for action in utterance.actions:
         meant = ANSWERED if isinstance(action, SetMode) and action.mode is Mode.MANUAL else action
         if meant not in actions:
             actions.append(meant)
-    return replace(utterance, actions=tuple(actions), supposes=None)
+    return replace(utterance, actions=tuple(actions), supposes=())

@@ -18,8 +18,8 @@ class Utterance:
 
     actions: tuple[Action, ...]
     text: str | None = None
-    supposes: str | None = None
-    """what its questions were said to be about, beyond their keys (`Asked.supposes`)"""
+    supposes: tuple[str | None, ...] = ()
+    """for each action what it was said to be about, beyond its keys (`Asked.supposes`); empty for nothing"""
     preface: str = ""
     """what its reply begins with: as what it was read"""
     language: str | None = None

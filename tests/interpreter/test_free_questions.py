@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import pytest
+
+from service.question_matcher import kind_scores
 from tests.interpreter.conftest import Json, Opening, Talk
 
 
@@ -73,3 +76,40 @@ async def test_what_no_answer_is_for_says_what_can_be_asked(talk: Talk) -> None:
     assert "I answer questions about this road" in problem["detail"]
     plain = await told(talk, "paint the road pink", 422)
     assert "I answer questions" not in plain["detail"]
+
+
+async def test_a_text_that_asks_two_things_gets_both_answers(talk: Talk) -> None:
+    text = "when do you reckon we get to the finish line, and how many lanes are there?"
+    result = await told(talk, text)
+    assert result["source"] == "matched"
+    assert [action["about"] for action in result["actions"]] == ["outlook", "world"]
+    for alone in ("when will we arrive?", "how many lanes are there?"):
+        assert (await told(talk, alone))["reply"] in result["reply"]
+
+
+async def test_a_part_that_leans_on_another_is_said_to_be_left(talk: Talk) -> None:
+    result = await told(talk, "when do you reckon we get to the finish line, and would that be quick?")
+    assert [action["about"] for action in result["actions"]] == ["outlook"]
+    assert "ask “would that be quick?” by itself" in result["reply"]
+
+
+async def test_each_of_two_questions_supposes_its_own(talk: Talk) -> None:
+    alone = [(await told(talk, each))["reply"] for each in ("what tick is it?", "where are you?")]
+    assert (await told(talk, "what tick is it and where are you?"))["reply"] == " ".join(alone)
+    nearest = (await told(talk, "where is the nearest car?"))["reply"]
+    assert (await told(talk, "where is the nearest car and how far is it?"))["reply"] == nearest
+
+
+async def test_what_is_likely_asked_is_answered_beside_the_question_back(
+    talk: Talk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(kind_scores, "LEAST_SURE", 30.0)  # nothing is sure
+    before = await talk.state()
+    problem = await told(talk, "when do you reckon we get to the finish line?", 409)
+    likely = problem["choices"][0]["text"]
+    assert likely == "when will we arrive?"
+    plain = problem["pending"]["question"]
+    assert "If it is" not in plain
+    chosen = await told(talk, "yes" if len(problem["choices"]) == 1 else "the first one")
+    assert f"If it is “{likely}”: {chosen['reply']}" in problem["detail"]
+    assert (await talk.state())["sequence"] == before["sequence"]

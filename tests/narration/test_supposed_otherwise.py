@@ -110,7 +110,7 @@ def test_every_answer_is_in_sentences_and_can_be_asked_on(code: str) -> None:
 
 def test_leave_to_drive_is_a_request_while_a_drive_goes_on_and_a_question_after_it() -> None:
     manual = SetMode(mode=Mode.MANUAL)
-    may = Utterance(actions=(manual, manual), supposes=PERMISSION)
+    may = Utterance(actions=(manual, manual), supposes=(PERMISSION, None))
     goes_on, over = driven(1, 3), driven(1, 500)
     assert over.state.world.outcome is not Outcome.RUNNING
     assert as_it_stands(may, goes_on) == may
