@@ -50,10 +50,10 @@ class ChosenMoves:
         others = [move for move in found.safest if move is not found.made.move]
         measure = Part(2, self._say("measure"))
         if not found.was_safest:
-            first = self._say("no", **named, others=self._names(found.safest))
+            first = self._say("was_not", **named, others=self._names(found.safest))
             return [Part(0, first), Part(0, self._why(found.made, found.moves[0])), measure]
         key = "alone" if not others else "all" if len(found.safest) == len(found.moves) else "among"
-        first = self._say("yes", key, **named, others=self._names(others))
+        first = self._say("was", key, **named, others=self._names(others))
         unsafe = self._say("none_safe") if not found.made.safe else ""
         hits = [each.move for each in found.moves if each.then is None and not each.off_road]
         at_once = self._say("at_once", others=self._names(hits)) if hits and found.made.then else ""

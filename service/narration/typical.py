@@ -66,9 +66,11 @@ class TypicalDrives:
     def _ended(self, found: Typical, config: Config) -> list[Part]:
         """Whether it went better, how the others ended and when, then waits and near misses."""
         told = self._say("ended", found.standing, **self._of(found, config), **self._counts(found))
-        arrived = found.usual_ticks
-        usual = "" if arrived is None else self._say("usual", seconds=in_seconds(self._sayings, arrived, config))
-        here = self._say("here", str(found.drive.outcome), seconds=self._took(found, config))
+        outcome, ticks = str(found.drive.outcome), found.usual_ticks
+        usual = ""
+        if ticks is not None:
+            usual = self._say("usual", outcome, seconds=in_seconds(self._sayings, ticks, config))
+        here = self._say("here", outcome, seconds=self._took(found, config))
         return [
             Part(0, told),
             Part(0, self._say("they", ends=self._ends(found), usual=usual)),

@@ -56,8 +56,8 @@ class Typical:
 
     @property
     def usual_ticks(self) -> float | None:
-        """The median of the ticks of the others that arrived; None where none did."""
-        return _median([each.ticks for each in self.others if each.outcome is Outcome.SUCCESS])
+        """The median of the ticks of the others that ended as this one did; None where none did."""
+        return _median([each.ticks for each in self.others if each.outcome is self.drive.outcome])
 
     @property
     def usual_rows(self) -> float:
