@@ -216,7 +216,9 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "noticed": (frozenset(), frozenset(("tick",))),
     **dict.fromkeys(("shares", "moving", "listed", "in_the_way", "advanced"), _STRETCHES),
     "near_misses": _STRETCHES,
-    **dict.fromkeys(("move_risk", "chosen_safest"), (frozenset(), frozenset(("tick",)), frozenset(("ticks",)))),
+    **dict.fromkeys(
+        ("move_risk", "chosen_safest"), (frozenset(), frozenset(("tick",)), frozenset(("ticks",)))
+    ),
     **dict.fromkeys(
         ("average_speed", "way_share", "best_time", "straight_line", "luck", "started", "hand_since"),
         (frozenset(),),

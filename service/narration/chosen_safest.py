@@ -1,4 +1,4 @@
-"""Answers to "was that move the safest one?": each move that could be made is run, and what comes after it."""
+"""Answers to "was that move the safest one?": each move that could be made is run, and what follows it."""
 
 from __future__ import annotations
 
@@ -65,7 +65,11 @@ class ChosenMoves:
         if made.then is None or best.then is None:
             return self._say("why", "hit")
         if made.then.crashes != best.then.crashes:
-            shares = [share_told(self._sayings, each.then.crashes, each.then.chances) for each in (made, best) if each.then]
+            shares = [
+                share_told(self._sayings, each.then.crashes, each.then.chances)
+                for each in (made, best)
+                if each.then
+            ]
             return self._say("why", "crashes", share=shares[0], best_share=shares[1], **named)
         levels = [Level.NONE if each.assurance is None else each.assurance.level for each in (made, best)]
         if levels[0] is not levels[1]:

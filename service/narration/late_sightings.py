@@ -7,8 +7,8 @@ from typing import Final
 
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
-from service.narration.values import conditions_of
 from service.narration.sayings import Sayings
+from service.narration.values import conditions_of
 from service.sessions.facts import Asked
 from sim.config import Config
 from sim.explain.late import NEAR_ROWS, FirstLook, LateThings, late_things
@@ -44,7 +44,7 @@ class LateSightings:
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | _json(found)
 
     def _told(self, found: LateThings, kind: Kind | None, config: Config) -> list[Part]:
-        """Yes or no with what was late, then what was never detected, what near is, and how far it reaches."""
+        """Yes or no with what was late, then what was never detected, what near is, and the reach."""
         things = self._say("things") if kind is None else self._sayings.things(kind, 2)
         if found.faithful:
             return [Part(0, self._say("faithful"))]
@@ -94,7 +94,8 @@ class LateSightings:
 def _json(found: LateThings) -> Json:
     def looks(of: Sequence[FirstLook]) -> list[Json]:
         return [
-            {"id": each.id, "tick": each.tick, "rows_ahead": each.rows, "lanes_aside": each.lanes} for each in of
+            {"id": each.id, "tick": each.tick, "rows_ahead": each.rows, "lanes_aside": each.lanes}
+            for each in of
         ]
 
     return {

@@ -1,4 +1,4 @@
-"""Answers to "how does this drive compare with a typical one?": drives on roads drawn alike, at the same tick."""
+"""Answers to "how does this drive compare with a typical one?": others on roads drawn alike, tick by tick."""
 
 from __future__ import annotations
 
@@ -54,7 +54,9 @@ class TypicalDrives:
         told = self._say("hard", key, **self._of(found, config), ends=self._ends(found, whole=True))
         parts = [Part(0, told)]
         if found.ended:
-            parts.append(Part(0, self._say("here", str(found.drive.outcome), seconds=self._took(found, config))))
+            parts.append(
+                Part(0, self._say("here", str(found.drive.outcome), seconds=self._took(found, config)))
+            )
         if best.known and best.ticks is not None:
             least = in_seconds(self._sayings, best.ticks, config)
             straight = in_seconds(self._sayings, best.drive.rows, config)
@@ -80,7 +82,7 @@ class TypicalDrives:
         ]
 
     def _so_far(self, found: Typical, config: Config) -> list[Part]:
-        """Whether it is ahead of them at this tick, then who of them had ended by it, waits and near misses."""
+        """Whether it is ahead of them at this tick, then who had ended by then, waits and near misses."""
         told = self._say("so_far", found.standing, **self._of(found, config), **self._counts(found))
         seconds = found.drive.ticks * config.step_seconds
         rows = self._say(

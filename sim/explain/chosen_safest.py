@@ -1,4 +1,4 @@
-"""Whether a move that was made was the safest of all that could be made: each is run, and what comes after."""
+"""Whether a move that was made was the safest of all that could be made: each is run, and what follows."""
 
 from __future__ import annotations
 

@@ -9,6 +9,7 @@ from sim.explain.seed_drives import seed_drives
 from sim.session.timeline import Timeline
 from sim.types import Outcome
 
+
 @dataclass(frozen=True, slots=True)
 class OtherSeeds:
     """How it ends with each of some seeds, in facts."""
