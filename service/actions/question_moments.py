@@ -47,7 +47,16 @@ _OF: Final[Mapping[str, Moment]] = {
 _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
     **{
         ("history", what): "decision"
-        for what in ("seen", "similar", "choices", "runner_up", "scores", "needed", "move_risk")
+        for what in (
+            "seen",
+            "similar",
+            "choices",
+            "runner_up",
+            "scores",
+            "needed",
+            "move_risk",
+            "chosen_safest",
+        )
     },
     **{(about, what): "state" for about in ("why", "why_not", "what_if") for what in WHATS[about]},
     **{
@@ -72,6 +81,8 @@ _OF_WHAT: Final[Mapping[tuple[str, str], Moment]] = {
                 "nearest_goal",
                 "here_since",
                 "not_advanced",
+                "typical",
+                "late",
             ),
         )
     },

@@ -61,6 +61,7 @@ OutlookName = Literal[
     "others_next",
     "stays_free",
     "place_then",
+    "best_way_here",
 ]
 """What of the time ahead is asked about.
 
@@ -74,7 +75,7 @@ go, or those of a kind; `crossing`: which of them come into the lane ahead of th
 `lane`: why it does not take a lane, and what would come of that; `liable`: whose a crash would be now;
 `others_next`: what the others do in the very next tick, or those of a kind; `stays_free`: for how many ticks
 the space ahead or beside stays free; `place_then`: in which lane and row the vehicle will be, or was, at a
-tick or after some.
+tick or after some; `best_way_here`: the quickest way to the goal from now.
 """
 BlameName = Literal[
     "fault",
@@ -200,6 +201,10 @@ HistoryName = Literal[
     "not_advanced",
     "story",
     "mishaps",
+    "typical",
+    "late",
+    "best_way",
+    "chosen_safest",
 ]
 """What of the past is asked about: of this episode, of the ticks since one, between two, or of one tick.
 
@@ -230,7 +235,9 @@ the crash; `least_ttc`: the least time to collision; `smoothness`: lane changes,
 side for its way; `reversals`: whether it went left and right by turns; `nearest_goal`: whether it was ever
 nearer to the goal; `here_since`: since when it is in this cell and this lane; `not_advanced`: the ticks
 in which it came no row ahead; `story`: what happened, in order; `mishaps`: what went wrong, in order;
-`unsafe_moves`: moves of a person that the rules forbid.
+`unsafe_moves`: moves of a person that the rules forbid; `typical`: this drive beside others of the same
+settings on other roads; `late`: what was near when it was first detected; `best_way`: the quickest way from
+where the drive began; `chosen_safest`: whether a move was the safest, the latest by default.
 """
 WantName = Literal["list", "first", "last", "longest", "whether", "share"]
 """What is wanted of what is counted; a count where it is not said. `share`: of the time."""

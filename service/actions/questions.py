@@ -128,7 +128,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "safest": (frozenset(),),
     "next_stop": (frozenset(),),
     "next_change": (frozenset(),),
-    **dict.fromkeys(("gaps", "danger", "lane", "liable"), (frozenset(),)),
+    **dict.fromkeys(("gaps", "danger", "lane", "liable", "best_way_here"), (frozenset(),)),
     "worst": (frozenset(), frozenset(("ticks",)), frozenset(("seconds",))),
     **dict.fromkeys(OF_OTHERS, (frozenset(),)),
     "stays_free": (frozenset(("move",)), frozenset(("move", "ticks")), frozenset(("move", "seconds"))),
@@ -190,6 +190,7 @@ COUNTED: Final[Mapping[str, frozenset[str]]] = {
     "in_the_way": frozenset(("kind", "want", "part", "lane", "parameter", "value")),
     "advanced": frozenset(("part",)),
     "near_misses": frozenset(("kind",)),
+    "late": frozenset(("kind",)),
 }
 """What is counted over a drive, and the conditions that each takes beside ticks."""
 
@@ -215,7 +216,9 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "noticed": (frozenset(), frozenset(("tick",))),
     **dict.fromkeys(("shares", "moving", "listed", "in_the_way", "advanced"), _STRETCHES),
     "near_misses": _STRETCHES,
-    "move_risk": (frozenset(), frozenset(("tick",)), frozenset(("ticks",))),
+    **dict.fromkeys(
+        ("move_risk", "chosen_safest"), (frozenset(), frozenset(("tick",)), frozenset(("ticks",)))
+    ),
     **dict.fromkeys(
         ("average_speed", "way_share", "best_time", "straight_line", "luck", "started", "hand_since"),
         (frozenset(),),
@@ -224,7 +227,7 @@ HISTORY_KEYS: Final[Mapping[HistoryName, tuple[frozenset[str], ...]]] = {
     "places_before": (frozenset(), frozenset(("ticks",))),
     **dict.fromkeys(("last_detected", "least_ttc", "smoothness", "reversals"), (frozenset(),)),
     **dict.fromkeys(
-        ("nearest_goal", "here_since", "not_advanced", "story", "mishaps"),
+        ("nearest_goal", "here_since", "not_advanced", "story", "mishaps", "typical", "late", "best_way"),
         (frozenset(),),
     ),
     **dict.fromkeys(("end", "stuck_cause", "knowable", "influence", "trouble"), (frozenset(),)),

@@ -243,6 +243,11 @@ def _questions() -> Iterator[dict[str, Any]]:
         yield {"do": "ask", "about": "history", "what": what}
     for what in ("last_detected", "places_before", "least_ttc", "smoothness", "reversals", "nearest_goal"):
         yield {"do": "ask", "about": "history", "what": what}
+    for what in ("typical", "late", "best_way"):
+        yield {"do": "ask", "about": "history", "what": what}
+    yield {"do": "ask", "about": "history", "what": "late", "kind": "pothole"}
+    for when in ({}, {"tick": 5}, {"ticks": 3}, {"ticks": 1}):
+        yield {"do": "ask", "about": "history", "what": "chosen_safest", **when}
     for what in ("here_since", "not_advanced", "story", "mishaps"):
         yield {"do": "ask", "about": "history", "what": what}
     for ticks in (1, 3):

@@ -386,7 +386,7 @@ class Sentences(RuleSentences):
             key += "_to" if ask.tick is not None else ""
             key += "" if ask.count is None else "_one" if ask.count == 1 else "_count"
         key += "" if ask.move is None else "_move"
-        of_tick = ("choices", "runner_up", "scores", "needed", "noticed", "move_risk")
+        of_tick = ("choices", "runner_up", "scores", "needed", "noticed", "move_risk", "chosen_safest")
         if ask.what in of_tick and ask.tick is not None:
             key += "_at"
         if ask.ticks is not None:

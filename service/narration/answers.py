@@ -24,10 +24,12 @@ from service.narration.asked_moment import at_its_moment
 from service.narration.barred_rows import BarredRowsTold
 from service.narration.belief_checked import BeliefChecked
 from service.narration.believed import NearestBelieved
+from service.narration.best_ways import BestWays
 from service.narration.blame import Blames
 from service.narration.by_device import ByDeviceTold
 from service.narration.by_hand import HandsOn
 from service.narration.choices import Choices
+from service.narration.chosen_safest import ChosenMoves
 from service.narration.close_calls import CloseCalls
 from service.narration.coming_turn import ComingTurns
 from service.narration.confidence import Confidences
@@ -51,6 +53,7 @@ from service.narration.hit_mover import HitMoversTold
 from service.narration.human_drivers import HumanDrivers
 from service.narration.influence import Influences
 from service.narration.lane_taken import LanesTaken
+from service.narration.late_sightings import LateSightings
 from service.narration.log_lines import Line, LogLines
 from service.narration.lost_way import LostWays
 from service.narration.luck import Lucks
@@ -92,6 +95,7 @@ from service.narration.status import Help, Status
 from service.narration.stretches import Stretches
 from service.narration.talk import OpenQuestion, RecentChanges
 from service.narration.things_traced import ThingsTraced
+from service.narration.typical import TypicalDrives
 from service.narration.unsafe_moves import UnsafeMovesTold
 from service.narration.what_if import WhatIfs
 from service.narration.why import Whys
@@ -109,7 +113,7 @@ from sim.explain.unsafe_moves import latest_by_hand
 from sim.explain.what_if import moment_of
 from sim.types import Kind, Move
 
-_OF_ONE_MOVE: Final = ("choices", "runner_up", "scores", "needed", "move_risk")
+_OF_ONE_MOVE: Final = ("choices", "runner_up", "scores", "needed", "move_risk", "chosen_safest")
 """What of the past is asked of a single move."""
 
 RULES_OF_THE_WORLD: Final[tuple[str, ...]] = get_args(WorldRuleName)
@@ -199,6 +203,10 @@ class Answers:
             SingleFactorsTold(sayings): ("factor",),
             Expectations(sayings): ("expected", "entered"),
             UnsafeMovesTold(sayings): ("unsafe_moves",),
+            TypicalDrives(sayings): ("typical",),
+            LateSightings(sayings): ("late",),
+            BestWays(sayings): ("best_way", "best_way_here"),
+            ChosenMoves(sayings): ("chosen_safest",),
         }
         self._by_what = {what: answerer for answerer, whats in by_what.items() for what in whats}
         whys, settings = Whys(sayings), Settings(sayings)

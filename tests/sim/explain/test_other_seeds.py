@@ -6,7 +6,8 @@ import pytest
 
 from sim.config import Config
 from sim.explain import QuestionError
-from sim.explain.other_seeds import SEEDS, other_seeds
+from sim.explain.other_seeds import other_seeds
+from sim.explain.seed_drives import SEEDS
 from sim.session.timeline import Timeline
 from sim.types import Outcome
 
