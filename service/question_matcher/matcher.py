@@ -39,7 +39,7 @@ UNUSUAL = 1.0
 MOST_UNKNOWN = 4
 MIN_LETTERS = 4
 """Shorter words are not looked for among the known ones."""
-LEAST_LIKELY = 0.0
+LEAST_LIKELY = -0.5
 """Least certainty of a question whose answer is given beside the question back."""
 MAX_CHOICES = 3
 MAX_WORDS = 60
