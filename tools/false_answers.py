@@ -32,6 +32,7 @@ from service.yaml_files import read_yaml
 from sim.search.compiled_costs import load_compiled_costs
 from tests.support import (
     judges_again,
+    judges_beside,
     judges_of_drives,
     judges_of_futures,
     judges_of_nearness,
@@ -46,6 +47,7 @@ JUDGES: dict[str, Judge] = {
     **judges_of_sight.JUDGES,
     **judges_of_futures.JUDGES,
     **judges_again.JUDGES,
+    **judges_beside.JUDGES,
 }
 DEAR = 0.12
 """The share of drives of which each dear kind is asked."""

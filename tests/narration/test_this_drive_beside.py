@@ -139,8 +139,8 @@ def test_the_move_made_is_held_against_all_others(code: str) -> None:
         timeline = driven(seed)
         for tick in (None, 3, timeline.tick - 1):
             found = chosen_safest(timeline, tick)
-            parts = {} if tick is None else {"tick": tick}
-            answer = told(timeline, code, about=HISTORY, what="chosen_safest", **parts)
+            parts: dict[str, object] = {} if tick is None else {"tick": tick}
+            answer = told(timeline, code, None, about=HISTORY, what="chosen_safest", **parts)
             assert answer["made"] is timeline.decision(found.tick).move  # type: ignore[union-attr]
             assert len(found.moves) == len(Move)
             least = min(safety(each) for each in found.moves)
