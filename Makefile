@@ -8,9 +8,14 @@ PORT   ?= 8000
 # One test process more than there are cores: tests that wait for a browser leave their core to others.
 WORKERS ?= $(shell echo $$(($$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 1)))
 
+TESTS := -n $(WORKERS) --dist loadgroup --no-loadscope-reorder
+
 # The site is built aside and moved into place, so that a running service never shows half of it.
 SPHINX := $(BIN)/python -m sphinx -q -W --keep-going -E -b html -d $(VENV)/doctrees docs $(VENV)/site && \
           rm -rf docs/site && mv $(VENV)/site docs/site
+
+# Hundreds of processes are started, and each would compile all sources again.
+unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
 .PHONY: help setup run docs test check style types types-page format bench clean
@@ -29,12 +34,14 @@ docs: $(VENV)/.ready-run ## Build the documentation site; warnings and dead link
 	@$(SPHINX)
 	@echo "The site is in docs/site; a running service shows it at /guide."
 
-# The type checker runs beside the tests, since it needs one core for a minute. Its output comes last.
-test: style docs ## Run all checks and all tests
+# What needs one core each runs at the same time: the type checker, the compiler of what tests load (as a service
+# starts it, and once instead of in every worker), the linters and the documentation. The first two report last.
+# Groups of tests start in the order of their files, in which long ones come early.
+test: $(VENV)/.ready-dev node_modules/.ready ## Run all checks and all tests
 	@output=$$(mktemp); trap 'rm -f "$$output"' EXIT; \
-	$(MAKE) --no-print-directory types >"$$output" 2>&1 & types=$$!; \
-	echo "$(BIN)/python -m pytest -n $(WORKERS) --dist loadgroup"; \
-	$(BIN)/python -m pytest -n $(WORKERS) --dist loadgroup; tests=$$?; \
+	{ $(BIN)/python -m sim.search.compiled_costs; $(MAKE) --no-print-directory types; } >"$$output" 2>&1 & types=$$!; \
+	$(MAKE) --no-print-directory style docs && { \
+	  echo "$(BIN)/python -m pytest $(TESTS)"; $(BIN)/python -m pytest $(TESTS); }; tests=$$?; \
 	wait $$types; types=$$?; cat "$$output"; exit $$((tests || types))
 
 check: style types docs ## Check style, types and documentation

@@ -41,6 +41,18 @@ def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest
     return _not_in_ci(report)
 
 
+@pytest.hookimpl(tryfirst=True)  # before pytest-xdist reads the groups, and after the hooks of folders
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """A file's tests run in one worker, unless it is in a larger group.
+
+    What they share (fixtures of the module, drives and answers that are kept) would otherwise be made in
+    every worker.
+    """
+    for item in items:
+        if item.get_closest_marker("xdist_group") is None:
+            item.add_marker(pytest.mark.xdist_group(item.nodeid.partition("::")[0]))
+
+
 def _not_in_ci(report: Report) -> Report:
     if os.environ.get("CI") and report.skipped and isinstance(report.longrepr, tuple):
         reason = report.longrepr[2].removeprefix("Skipped: ")

@@ -51,6 +51,7 @@ def chromium() -> str | None:
     return next(filter(None, map(shutil.which, PROGRAMS)), None)
 
 
+@pytest.hookimpl(tryfirst=True)  # before every other test gets its file's group
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """In two groups, each with a service and a browser of its own: a small machine has two cores."""
     here = Path(__file__).parent

@@ -27,6 +27,7 @@ async def inside() -> AsyncIterator[AsyncClient]:
         yield client
 
 
+@pytest.hookimpl(tryfirst=True)  # before every other test gets its file's group
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """In one worker, with one service."""
     here = Path(__file__).parent

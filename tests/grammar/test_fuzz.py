@@ -26,16 +26,16 @@ def sayings(language: Language) -> Sayings:
     return Sayings(language, "en")
 
 
-def test_a_short_run_finds_no_wrong_act(language: Language) -> None:
-    fuzzer = Fuzzer(language, "en", seed=11)
+def test_a_short_run_finds_no_wrong_act(language: Language, sayings: Sayings) -> None:
+    fuzzer = Fuzzer(language, "en", 11, sayings)
     report = fuzzer.run(600, [*CERTAIN, NEUTRAL, *PAIRS])
     assert report.total() > 500
     assert report.total("same") > 100
     assert report.suspicious == []
 
 
-def test_the_same_seed_makes_the_same_sentences(language: Language) -> None:
-    runs = [Fuzzer(language, "en", seed=3).run(60, ["duration", "pairs"]).counts for _ in range(2)]
+def test_the_same_seed_makes_the_same_sentences(language: Language, sayings: Sayings) -> None:
+    runs = [Fuzzer(language, "en", 3, sayings).run(60, ["duration", "pairs"]).counts for _ in range(2)]
     assert runs[0] == runs[1]
 
 

@@ -31,9 +31,10 @@ SLOW = MOST_STEPS // 2
 class Fuzzer:
     """Mutates and joins the sentences of one language."""
 
-    def __init__(self, language: Language, code: str, seed: int) -> None:
+    def __init__(self, language: Language, code: str, seed: int, sayings: Sayings | None = None) -> None:
+        """`sayings`: those of the language, where they were read already, which takes seconds."""
         self._language = language
-        self._sayings = Sayings(language, code)
+        self._sayings = sayings or Sayings(language, code)
         self._seed = seed
         self._words: Vocabulary = vocabulary_of(code)
         self._joiners = self._words.joiners
