@@ -95,7 +95,7 @@ class QuickMoves:
         return SeenOtherwise(Unlike(movers & near, fixed & near, barriers & near, potholes & near), charges)
 
     def _near_by(self, buffer: int) -> Board:
-        """The cells that can have a part: what lies further behind than anything is kept clear of has none."""
+        """The cells that can have a part: none that is further behind than anything is kept clear of."""
         road, row = self._percept.road, self._percept.ego // self._percept.road.columns
         near: Board = (1 << min(row + 1 + max(1, buffer), road.rows) * road.columns) - 1
         if self._reads_two_rows:
