@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from sim.decide import moves_where, next_belief
 from sim.ego import Ego
 from sim.explain.chances import Chances, chances
-from sim.explain.episode_rollout import driven_in_words, is_driven_in_words, rollout
+from sim.explain.episode_rollout import driven_in_words, rollout
 from sim.explain.stuck import is_stuck, shut_off
 from sim.fast_replace import field_setter
 from sim.oracle.lower_bounds import PATIENCE, least_ticks
@@ -105,8 +105,9 @@ def _end(state: SimState, ego: str) -> Future | None:
     """How the episode ends if nobody says anything more; None if it waits for a person or is not told."""
     if state.ego(ego).mode is Mode.MANUAL and state.world.outcome is Outcome.RUNNING:
         return None
-    if is_driven_in_words(state, ego):
-        return _future(driven_in_words(state), ego)
+    driven = driven_in_words(state, ego)
+    if driven is not None:
+        return _future(driven, ego)
     # With `repetition` the run itself ends there. Of several egos what repeats is not looked for.
     alone = len(state.world.avs) == 1
     recurs = alone and repeats_for_ever(state.config, state.ego().planner) and not state.config.repetition

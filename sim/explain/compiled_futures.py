@@ -19,19 +19,28 @@ if TYPE_CHECKING:
     from sim.batch.row_words import DrivenTicks, FoundEnds
 
 
+def ticks_are_compiled_for(state: SimState, ego: str | None = None) -> bool:
+    """Whether the ticks of a run are known in compiled words, and these are loaded.
+
+    An ego that a person drives counts as one that drives by itself. That a run ends where it repeats itself
+    (`Config.repetition`) is not known in words.
+    """
+    return (
+        rows_are_compiled_for(state.world, state.config)
+        and state.config_of(ego).planner in (*BY_RANK, *BY_COST)
+        and not state.ego(ego).queue
+    )
+
+
 def futures_are_compiled_for(state: SimState, ego: str | None = None) -> bool:
     """Whether the futures of an ego can be found in compiled words, and these are loaded.
 
     An ego that a person drives counts as one that drives by itself.
     """
-    if not rows_are_compiled_for(state.world, state.config):
+    if not ticks_are_compiled_for(state, ego):
         return False
     config = state.config_of(ego)
-    return (
-        config.planner in (*BY_RANK, *BY_COST)
-        and not state.ego(ego).queue
-        and not (config.repetition and repeats_for_ever(config, config.planner))
-    )
+    return not (config.repetition and repeats_for_ever(config, config.planner))
 
 
 def compiled_futures(
@@ -62,7 +71,7 @@ def compiled_drive(state: SimState, most: int | None = None) -> DrivenTicks:
     """The ticks of a run up to before the one that ends its episode, at most so many.
 
     Of the ego itself the state after them holds no more than before them. Precondition:
-    `drive_is_compiled_for`.
+    `drive_is_compiled_for`; the ticks up to a repetition that ends a run need `ticks_are_compiled_for` alone.
     """
     from sim.batch.row_words import drive_on
 

@@ -37,5 +37,14 @@ class Edit:
             if isinstance(action, Add) and action.kind == "barrier" and action.where and action.where.cell
         )
 
+    @property
+    def filled(self) -> tuple[Cell, ...]:
+        """The cells that anything is put into."""
+        return tuple(
+            action.where.cell
+            for action in self.actions
+            if isinstance(action, Add) and action.where and action.where.cell
+        )
+
 
 Edits = tuple[Edit, ...]

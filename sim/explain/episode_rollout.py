@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from sim.episode_record import DetourReason, Sake, detour_reason
-from sim.explain.compiled_futures import compiled_drive, drive_is_compiled_for
+from sim.explain.compiled_futures import compiled_drive, drive_is_compiled_for, ticks_are_compiled_for
 from sim.explain.effort import prepare
 from sim.plan import Decision, traits_of
 from sim.state import SimState, StepResult
@@ -146,17 +146,30 @@ def drive(state: SimState, first: Decision | None = None, *, ego: str | None = N
 
 def is_driven_in_words(state: SimState, ego: str | None = None) -> bool:
     """Whether a run is driven by compiled words, to its end."""
-    if not drive_is_compiled_for(state, ego):
-        return False
+    return drive_is_compiled_for(state, ego) and _is_short(state, ego)
+
+
+def _is_short(state: SimState, ego: str | None) -> bool:
+    """Whether no more is looked through to the end of a run than is allowed for a story."""
     config, world = state.config_of(ego), state.world
     if not traits_of(config.planner).plans_to_goal:
         return True
     return (config.max_ticks + 1 - world.episode_tick) * work_of_tick(world.road) <= MAX_WORK
 
 
-def driven_in_words(state: SimState) -> World:
-    """The world at the end of a run, without its story. Precondition: `is_driven_in_words`."""
-    return step(compiled_drive(state).state).state.world
+def driven_in_words(state: SimState, ego: str | None = None) -> World | None:
+    """The world at the end of a run by compiled words, without its story; None where they do not tell it.
+
+    What repeats itself goes on for ever, so a run that arrives or crashes in words has not ended before by
+    a repetition, which words do not know. One that is stuck in words may have.
+    """
+    known = ticks_are_compiled_for(state, ego) and state.ego(ego).mode is Mode.AUTO
+    if not known or not _is_short(state, ego):
+        return None
+    last = step(compiled_drive(state).state).state.world
+    if last.outcome is Outcome.STUCK and not drive_is_compiled_for(state, ego):
+        return None
+    return last
 
 
 def _compiled_story(state: SimState) -> EpisodeRollout:

@@ -81,6 +81,8 @@ class ChangeSearch:
         return self._known[key]
 
     def _made(self, edits: Edits) -> Move | None:
+        if self._is_refused(edits):
+            return None
         if not any(isinstance(action, Prefer) for edit in edits for action in edit.actions):
             road = self._rerun.state.world.road
             cells = [road.index(cell) for edit in edits for cell in edit.barred]
@@ -89,6 +91,14 @@ class ChangeSearch:
                 if made is not None:
                     return made
         return self._done(edits)
+
+    def _is_refused(self, edits: Edits) -> bool:
+        """Whether it is known without trying that something is put where another thing stands for good."""
+        if not self._rerun.faithful:
+            return False
+        percept, gone = self._rerun.percept, {edit.gone for edit in edits}
+        filled = (percept.road.index(cell) for edit in edits for cell in edit.filled)
+        return any(cell in percept.hazards and percept.hazards[cell] not in gone for cell in filled)
 
     def _done(self, edits: Edits) -> Move | None:
         """The move after the actions themselves."""

@@ -8,8 +8,9 @@ from itertools import combinations
 
 import pytest
 
+from sim.config import Config
 from sim.explain.compiled_futures import drive_is_compiled_for, futures_are_compiled_for
-from sim.explain.episode_rollout import decided, drive, rollout, summarize
+from sim.explain.episode_rollout import decided, drive, driven_in_words, rollout, summarize
 from sim.explain.futures import Futures, find_ends
 from sim.explain.intervention import Intervention
 from sim.explain.smallest_change import ChangeSearch
@@ -20,7 +21,8 @@ from sim.search.compiled_costs import forget_compiled_costs, load_compiled_costs
 from sim.search.compiled_rows import BY_COST, BY_RANK, compiled_least_ticks, rows_are_compiled_for
 from sim.search.reachability import steps_left
 from sim.search.reactive import ImpatientError, ReactiveSearch
-from sim.types import Mode, Move
+from sim.session.timeline import Timeline
+from sim.types import Mode, Move, Outcome
 from tests.support.reacting_roads import reacting_runs
 
 pytestmark = pytest.mark.xdist_group("compiled")
@@ -75,6 +77,20 @@ def test_a_run_is_the_same_tick_by_tick(seed: int) -> None:
     assert compared > 15
 
 
+@pytest.mark.parametrize("planner", BY_RANK)
+def test_a_run_that_may_repeat_itself_ends_in_words_as_it_does(planner: str) -> None:
+    ends = set()
+    for seed in range(30):
+        config = Config(seed=seed, columns=8, rows=15, vehicles=14, potholes=8, barriers=4, planner=planner)
+        state = Timeline(config).state
+        *_, (_, last) = rollout(state)
+        found = driven_in_words(state)
+        assert found is None or found == last.state.world
+        assert (found is None) is (last.state.world.outcome is Outcome.STUCK)
+        ends.add(last.state.world.outcome)
+    assert len(ends) > 1
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_least_ticks_are_the_same_with_as_many_states_looked_at(seed: int) -> None:
     draw, given_up = random.Random(seed), 0
@@ -112,6 +128,12 @@ def test_the_moves_after_changes_are_those_of_the_planner(seed: int) -> None:
             assert search._done(tuple(edits)) is move, edits
         gone = draw.sample(names, len(names) // 2)
         assert rerun.without(gone) is rerun.decision_without(gone).move
+        again = Intervention(state, made)
+        again.foresee_without([[name, gone[0]] for name in names])
+        assert not again.count  # what was foreseen counts once it is asked for
+        for name in names:
+            assert again.without([name, gone[0]]) is again.decision_without([name, gone[0]]).move
+        assert again.count == 2 * len(names)
 
 
 def test_what_they_are_not_made_for_goes_the_slow_way() -> None:
