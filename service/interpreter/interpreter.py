@@ -139,7 +139,7 @@ class Interpreter:
             return None
         code = code or session.language
         parse = await self._read(text, session, code)
-        if isinstance(parse, Refused) and parse.reason == "not_understood":
+        if isinstance(parse, Refused) and parse.reason in ("not_understood", "negation"):
             try:
                 question = await self._question(text, session, code)
             except Asked as problem:
@@ -207,7 +207,8 @@ class Interpreter:
             case AmbiguousParse():
                 raise asked_by(parse, code, None if session is None else session.pending)
             case Refused():
-                if parse.reason == "not_understood":
+                # "Why doesn't it just go around?" says what not to do, and asks.
+                if parse.reason in ("not_understood", "negation"):
                     question = await self._question(text, session, code, at_tick)
                     if question is not None:
                         return question

@@ -36,11 +36,13 @@ class Fillers:
     def without(self, text: str) -> tuple[str, ...]:
         """The text with fewer and fewer of its fillers, and its last sentence alone; never the text itself.
 
-        A sentence that asks or supposes something is not left out, nor one that a few words lean on.
+        A sentence that asks or supposes something is not left out, nor one that a few words lean on, or words
+        that refer to it.
         """
         found = [*self._shorter(text)]
         *before, last = [each for each in _SENTENCE.split(text.strip()) if each.strip()] or [""]
-        whole = len(re.findall(r"\w+", last)) >= LEAST_WORDS
+        words = re.findall(r"[\w']+", last.casefold())
+        whole = len(words) >= LEAST_WORDS and self._leaning.isdisjoint(words)
         if before and whole and not any(each.endswith("?") or self._supposes(each) for each in before):
             found += [last, *self._shorter(last)]
         return tuple(dict.fromkeys(each for each in found if each and each != text))[:MAX_TRIED]
@@ -57,6 +59,10 @@ class Fillers:
     def _data(self) -> Mapping[str, Any]:
         data: Mapping[str, Any] = read_yaml(self._folder / FILE)
         return data
+
+    @cached_property
+    def _leaning(self) -> frozenset[str]:
+        return frozenset(self._data["leaning"])
 
     @cached_property
     def _supposing(self) -> frozenset[str]:

@@ -20,6 +20,8 @@ NO_PROSE = re.compile(r"[{}\[\]]")
 """Marks of code and of data, which no question holds."""
 STAY = "stay"
 FORWARD = "forward"
+TEACHES_BEFORE = 2
+"""Words behind which the words of teaching teach nothing."""
 MIN_WORDS = 3
 """With fewer a question leans on what was said before, which is not looked at here."""
 
@@ -70,7 +72,8 @@ class SlotWords:
         if not tokens:
             return Question((), {}, frozenset())
         lattice = language.scan(tokens)
-        if TEACH in lattice.concepts:  # "when I say …, I mean …" asks nothing
+        # "When I say …, I mean …" asks nothing; "does it learn from this?" teaches nothing.
+        if any(edge.concept == TEACH and edge.start < TEACHES_BEFORE for edge in lattice.all()):
             return Question((), {}, frozenset())
         spans = self._spans(tokens, lattice)
         words = _masked(tokens, spans)

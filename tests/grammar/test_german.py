@@ -160,7 +160,8 @@ def test_politeness_and_marks_change_nothing(german: Language, polite: str) -> N
     for say in list(sayings())[::9]:
         if say.startswith(("Speichere", "speichere", "lade")) or say.endswith(("?", "!", ".")):
             continue
-        if say.startswith(("Moment", "Mach daraus", "warte", "Warte")):  # after a comma it takes back what was said
+        # After a comma these take back what was said.
+        if say.startswith(("Moment", "Mach daraus", "warte", "Warte")):
             continue
         if say.startswith("Auto,"):  # who is spoken to stands first
             continue

@@ -113,3 +113,12 @@ async def test_what_is_likely_asked_is_answered_beside_the_question_back(
     chosen = await told(talk, "yes" if len(problem["choices"]) == 1 else "the first one")
     assert f"If it is “{likely}”: {chosen['reply']}" in problem["detail"]
     assert (await talk.state())["sequence"] == before["sequence"]
+
+
+async def test_what_is_not_done_is_asked_about_where_it_is_a_question(talk: Talk) -> None:
+    problem = await told(talk, "don't go left", 422)
+    assert problem["reason"] == "negation"
+    asked = await talk.post("why doesnt it just go around")
+    assert asked.status_code in (200, 409)
+    learns = await told(talk, "does the car learn from this drive so that it will do better next time?")
+    assert [(action["do"], action["about"]) for action in learns["actions"]] == [("ask", "world")]

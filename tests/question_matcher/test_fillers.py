@@ -49,3 +49,8 @@ def test_a_word_that_turns_a_question_stays(word: str) -> None:
 def test_a_few_words_are_not_read_without_the_sentence_that_they_lean_on(text: str) -> None:
     start = text.split()[0]
     assert all(each.startswith(start) for each in FILLERS["en"].without(text))
+
+
+def test_a_sentence_that_refers_to_another_is_not_read_without_it() -> None:
+    assert "What was that for?" not in FILLERS["en"].without("It zigzagged in the middle. What was that for?")
+    assert "Where are we going?" in FILLERS["en"].without("It zigzagged in the middle. Where are we going?")
