@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Sequence
+from functools import cache
 
 import pytest
 from hypothesis import given, settings
@@ -13,12 +15,19 @@ from service.actions import dump
 from service.grammar import Ambiguous, Language, Refused, Understood
 from service.grammar.data import read_language
 from service.grammar.evaluation import read_labelled
+from service.grammar.parse_types import Parse
 from service.resources import prompts_folder
 from tests.grammar.beside import HERE, beside
 
 DEV = read_labelled(HERE / "dev.jsonl")
 WORDS = sorted({word for row in DEV for word in row.text.split()})
 LANGUAGE = Language.load()
+
+
+@cache
+def read_dev(language: Language) -> Sequence[Parse]:
+    """What each of the sentences means."""
+    return [language.parse(row.text) for row in DEV]
 
 
 @settings(max_examples=300, deadline=None)
@@ -82,7 +91,7 @@ def test_capitals_marks_and_politeness_change_nothing(language: Language, row: o
 
 
 def test_parsing_is_a_function_of_the_text_alone(language: Language) -> None:
-    first = [language.parse(row.text) for row in DEV]
+    first = read_dev(language)
     assert first == [language.parse(row.text) for row in DEV]
     another = Language(read_language(prompts_folder() / "language" / "en"))  # read anew, and asked backwards
     assert first == [another.parse(row.text) for row in reversed(DEV)][::-1]
@@ -130,8 +139,7 @@ def test_every_suggestion_ever_offered_can_be_said(language: Language) -> None:
 
 
 def test_refusals_offer_at_most_three_different_sayings(language: Language) -> None:
-    for say in [*beside("refuse"), *(row.text for row in DEV if not row.actions)]:
-        parsed = language.parse(say)
+    for parsed in (*map(language.parse, beside("refuse")), *read_dev(language)):
         if isinstance(parsed, Refused):
             assert len(set(parsed.suggestions)) == len(parsed.suggestions) <= 3
 

@@ -4,13 +4,20 @@ from __future__ import annotations
 
 import random
 import string
+from functools import cache
 
 import pytest
 
 from service.actions import dump
 from service.grammar import Language, Understood
-from service.grammar.evaluation import Labelled, evaluate, read_labelled, render, same
+from service.grammar.evaluation import Labelled, Report, evaluate, read_labelled, render, same
 from tests.grammar.beside import HERE
+
+
+@cache
+def evaluated(language: Language, file: str) -> Report:
+    """What became of each sentence of a file."""
+    return evaluate(language, HERE / file)
 
 
 @pytest.mark.parametrize(
@@ -29,14 +36,14 @@ from tests.grammar.beside import HERE
     ],
 )
 def test_no_wrong_action_and_nearly_all_exact(language: Language, file: str, least_exact: float) -> None:
-    report = evaluate(language, HERE / file)
+    report = evaluated(language, file)
     assert report.total("wrong") == 0, render(report)
     assert report.total("exact") >= least_exact * report.total(), render(report)
 
 
 @pytest.mark.parametrize("file", sorted(path.name for path in HERE.glob("*.jsonl")))
 def test_what_must_be_refused_or_asked_about_is(language: Language, file: str) -> None:
-    counts = evaluate(language, HERE / file).counts
+    counts = evaluated(language, file).counts
     for intent in ("(refuse)", "(clarify)"):
         assert counts[intent]["exact"] == counts[intent].total() > 0
 
