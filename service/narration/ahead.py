@@ -24,12 +24,15 @@ from service.narration.futures_told import counted_told, end_told, share_told, y
 from service.narration.naming import Naming
 from service.narration.repair import Repairs
 from service.narration.sayings import Sayings
+from service.narration.scene_told import SceneTold
 from service.sessions.facts import Asked
+from sim.decide import sense
 from sim.explain import QuestionError
 from sim.explain.ahead import Arrival, StuckAhead, arrival, crash_ahead, stuck_ahead
 from sim.explain.planners import planner_of
 from sim.explain.repair import repair
 from sim.explain.safe_move import SafeMove, safe_move
+from sim.explain.scene import describe_percept
 from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import Mode, Move, Outcome
@@ -84,8 +87,14 @@ class Outlooks:
             return plain(self._sayings, ask, state, not_so(self._sayings, error.code, error.facts))
         running = state.world.outcome is Outcome.RUNNING
         if running and state.ego().mode is Mode.MANUAL and ask.what != "safe":
-            text = f"{self._say('by_hand')} {text}"
+            # Whoever steers asks of the way straight on as well.
+            straight = self._straight_on(state) if ask.what == "crash" else ""
+            text = within([Part(1, straight), Part(0, f"{self._say('by_hand')} {text}")])
         return plain(self._sayings, ask, state, text) | {"what": ask.what} | facts
+
+    def _straight_on(self, state: SimState) -> str:
+        """What is met straight on."""
+        return SceneTold(self._sayings, state, describe_percept(sense(state)[0], state.config)).way()
 
     def _safe(self, asked: Asked) -> tuple[str, Json]:
         found = safe_move(asked.timeline, asked.ask.move or Move.STAY)

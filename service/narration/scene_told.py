@@ -52,7 +52,7 @@ class SceneTold:
             return " ".join(
                 filter(None, [self.say("ended", outcome=word), self._counts(), self._straight_on()])
             )
-        told = [Part(0, part) for part in (self._counts(), self._way()) if part]
+        told = [Part(0, part) for part in (self._counts(), self.way()) if part]
         others = [thing for thing in self._scene.seen if thing.ticks is None and thing.rows >= 0]
         if others and len(self._scene.seen) > 1:
             told.append(Part(1, self.say("nearest", thing=self.near(others[0]))))
@@ -70,7 +70,7 @@ class SceneTold:
         agreed = not self._scene.threats if asked == "clear" else bool(seen)
         word = self._sayings.say("ahead", "answer", "agree" if agreed else "disagree")
         if self._run.world.outcome is Outcome.RUNNING and asked == "clear":
-            return " ".join(filter(None, [f"{word}.", self._way(), self._counts()]))
+            return " ".join(filter(None, [f"{word}.", self.way(), self._counts()]))
         return f"{word}. {self.everything()}"
 
     def anybody(self) -> str:
@@ -174,7 +174,7 @@ class SceneTold:
         are = self.say("are", "one" if ahead == 1 else "many")
         return self.say(key, things=self._sayings.joined(parts), count=self.count(ahead), are=are)
 
-    def _way(self) -> str:
+    def way(self) -> str:
         """What is met straight on; empty where the sensor does not reach the next cell.
 
         Nothing is called clear that is farther ahead than the sensor detects anything.
