@@ -42,7 +42,8 @@ MIN_LETTERS = 4
 LEAST_LIKELY = -0.5
 """Least certainty of a question whose answer is given beside the question back.
 
-Of 462 questions that were not learnt from, 156 lie between this and what is sure; 72 % of them are read rightly.
+Of 462 questions that were not learnt from, 156 lie between this and what is sure; of these 72 % are read
+rightly.
 """
 MAX_CHOICES = 3
 MAX_WORDS = 60
