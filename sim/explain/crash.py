@@ -134,11 +134,6 @@ class _LastTick:
             self._known[key] = self._crashes(world, self._rerun.only_there(kept), others)
         return self._known[key]
 
-    def foresee_without(self, sets: Iterable[Iterable[str]]) -> None:
-        """Find the moves without each of these sets at once, where that can be."""
-        if self._rerun.faithful:
-            self._rerun.foresee_without(sets)
-
     def _crashes(self, world: World, move: Move, gone: Collection[str]) -> bool:
         there, ids = ego_first(_on_road(self._run, world), self._rerun.ego, gone)
         moves = (move, *(self._made.get(id, Move.STAY) for id in ids[1:]))

@@ -167,16 +167,6 @@ class Intervention:
         )
         return self._decide(self._with(without(self.state.config, gone)), seen).move
 
-    def foresee_without(self, sets: Iterable[Iterable[str]]) -> None:
-        """Find the moves without each of these sets at once, before they are asked for one by one.
-
-        Nothing counts as tried before it is asked for. Where moves are not found many at once, nothing is
-        done.
-        """
-        if self.quick is not None:
-            otherwise = [self.quick.without(frozenset(names)) for names in sets]
-            self.quick.moves([each for each in otherwise if each is not None])
-
     def made_after(self, changes: Sequence[SeenOtherwise]) -> list[Move]:
         """The move after each of these changes of what is seen. Precondition: `quick`.
 

@@ -13,7 +13,7 @@ from sim.config import Config
 from sim.explain.effort import work_among_many
 from sim.explain.factors import factors, is_factor, without
 from sim.perceive import Percept
-from sim.plan import Decision, Measure, traits_of
+from sim.plan import Decision, Measure
 from sim.rules.compiled import compiled_rules
 from sim.search.compiled_costs import Unlike, are_loaded, compiled_moves
 from sim.search.compiled_rows import BY_RANK, MOST_COLUMNS, compiled_moves_by_rank
@@ -21,7 +21,7 @@ from sim.search.costs import TICKS_ALONE, Weights, weights
 from sim.search.reachability import steps_left
 from sim.state import SimState
 from sim.types import Move
-from sim.world.grid import Board, union
+from sim.world.grid import union
 
 
 class SeenOtherwise(NamedTuple):
@@ -60,8 +60,7 @@ class QuickMoves:
         self._ranked = decision.planner if decision.measure is Measure.RANK else None
         self.work = 1 if self._ranked else work_among_many(road.columns, row)
         """of one move"""
-        self._config, self._percept = config, percept
-        self._reads_two_rows = traits_of(decision.planner).near
+        self._config, self._percept, self._fact = config, percept, decision.move
         self._by_cost = decision.measure is Measure.COST
         self._charges = weights(config) if self._by_cost else TICKS_ALONE
         self._limit = steps_left(config, percept.episode_tick)
@@ -69,39 +68,30 @@ class QuickMoves:
         self._fixed = {name: 1 << cell for cell, name in percept.hazards.items()}
         self._all_movers, self._all_fixed = union(self._movers.values()), union(self._fixed.values())
         self._factors = factors(config)
-        self._near: dict[int, Board] = {}
-        """the cells that can have a part, by the cells of which movers are kept clear"""
-        self._made = {SeenOtherwise(Unlike(), self._charges): decision.move}
-        """the moves by what of a change matters, so that none is asked for twice"""
+        # What lies further behind than anything is kept clear of takes no part.
+        rows = row + 1 + max(1, self._charges.buffer)
+        self._near = (1 << min(rows, road.rows) * road.columns) - 1
 
     def moves(self, changes: Sequence[SeenOtherwise]) -> list[Move]:
         """The move after each of these changes."""
-        parts = [self._what_matters(change) for change in changes]
-        new = [part for part in dict.fromkeys(parts) if part not in self._made]
-        if new:
-            unlike = [part.unlike for part in new]
+        asked = [place for place, change in enumerate(changes) if self._matters(change)]
+        found = [self._fact] * len(changes)
+        if asked:
+            unlike = [changes[place].unlike for place in asked]
             if self._ranked:
                 moves = compiled_moves_by_rank(self._percept, self._ranked, unlike)
             else:
-                charges = [part.charges for part in new]
+                charges = [changes[place].charges for place in asked]
                 moves = compiled_moves(self._percept, unlike, charges, self._limit)
-            self._made.update(zip(new, moves, strict=True))
-        return [self._made[part] for part in parts]
+            for place, move in zip(asked, moves, strict=True):
+                found[place] = move
+        return found
 
-    def _what_matters(self, change: SeenOtherwise) -> SeenOtherwise:
-        """The part of a change that is where it can have a part in the decision."""
-        (movers, fixed, barriers, potholes), charges = change
-        near = self._near.get(charges.buffer) or self._near_by(charges.buffer)
-        return SeenOtherwise(Unlike(movers & near, fixed & near, barriers & near, potholes & near), charges)
-
-    def _near_by(self, buffer: int) -> Board:
-        """The cells that can have a part: none that is further behind than anything is kept clear of."""
-        road, row = self._percept.road, self._percept.ego // self._percept.road.columns
-        near: Board = (1 << min(row + 1 + max(1, buffer), road.rows) * road.columns) - 1
-        if self._reads_two_rows:
-            near &= -1 << max(0, row - 1) * road.columns
-        self._near[buffer] = near
-        return near
+    def _matters(self, change: SeenOtherwise) -> bool:
+        """Whether anything is otherwise where it can have a part."""
+        movers, fixed, barriers, potholes = change.unlike
+        seen = (movers | fixed | barriers | potholes) & self._near
+        return bool(seen) or change.charges is not self._charges
 
     def without(self, names: Collection[str]) -> SeenOtherwise | None:
         """What is seen without these; None where one of them is not known."""

@@ -43,8 +43,6 @@ MAX_GROUPS = 6
 
 MOST_PAIRED = 24
 """Of so many things, the most telling, each is tried as the one stand-in of a cause."""
-FIRST_PAIRED = 3
-"""So many of them are looked at together at first, and ever more later."""
 
 
 def explain_why(
@@ -131,9 +129,6 @@ class Tried(Protocol):
     def keeping(self, names: Iterable[str]) -> object:
         """What it comes to with nothing but these."""
 
-    def foresee_without(self, sets: Iterable[Iterable[str]]) -> None:
-        """Get ready for being asked without each of these sets, where that is quicker for many at once."""
-
 
 def minimal_sufficient_set(
     tried: Tried, fact: object, names: list[str]
@@ -198,7 +193,8 @@ def _group(tried: Tried, fact: object, name: str, names: list[str], enough: list
     sufficient. It is the group if no member of it can be spared; else there is none to be told.
     """
     stand_ins = [other for other in names if other not in enough]
-    pair = _paired_with(tried, fact, name, [other for other in names[:MOST_PAIRED] if other != name])
+    alike = (other for other in names[:MOST_PAIRED] if other != name and tried.without([other]) is fact)
+    pair = next((other for other in alike if tried.without([name, other]) is not fact), None)
     if pair is not None:
         return name, pair
     found = name, *minimal_subset(stand_ins, lambda gone: tried.without([name, *gone]) is not fact)
@@ -207,18 +203,6 @@ def _group(tried: Tried, fact: object, name: str, names: list[str], enough: list
     parts = (part for size in range(1, len(found)) for part in combinations(found, size))
     smallest = next((part for part in parts if tried.without(part) is not fact), found)
     return smallest if name in smallest else ()
-
-
-def _paired_with(tried: Tried, fact: object, name: str, others: list[str]) -> str | None:
-    """The first of the others that makes no difference by itself, but does together with this one."""
-    foreseen, most = 0, FIRST_PAIRED
-    for place, other in enumerate(others):
-        if place == foreseen:
-            tried.foresee_without([(name, each) for each in others[place : place + most]])
-            foreseen, most = place + most, 2 * most
-        if tried.without([other]) is fact and tried.without([name, other]) is not fact:
-            return other
-    return None
 
 
 def minimal_subset(names: list[str], holds: Callable[[Sequence[str]], bool]) -> list[str]:

@@ -10,10 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sim.actions import Prefer
 from sim.config import Config
 from sim.explain import why, why_not
-from sim.explain.edit import Edit
 from sim.explain.intervention import Intervention
 from sim.explain.smallest_change import ChangeSearch
 from sim.explain.tried_together import TogetherTried
@@ -26,7 +24,6 @@ from tests.support.sentence_judge import changes_reaching
 pytestmark = pytest.mark.xdist_group("compiled")
 
 SEEDS = st.integers(0, 2**32 - 1)
-CAUTIOUS = Edit(actions=(Prefer(preference="cautious"),))
 PLANNERS = st.sampled_from(["astar", "dijkstra", "bfs"])
 
 
@@ -74,29 +71,6 @@ def test_a_change_leads_where_its_actions_lead(seed: int, planner: str) -> None:
     for each in some:
         if frozenset(each) in found:
             assert found[frozenset(each)] is search._done(each), each
-
-
-def test_a_wish_brings_things_behind_into_a_change() -> None:
-    """With a wish more, movers are kept clear of that had no part before."""
-    compared = 0
-    for seed in range(12):
-        timeline = Timeline(Config(seed=seed, columns=6, rows=12, vehicles=20, planner="astar"))
-        for _ in range(4):
-            timeline.advance()
-        state, made = timeline.at(timeline.tick - 1), timeline.decision(timeline.tick - 1)
-        if made is None or state.world.outcome is not Outcome.RUNNING:
-            continue
-        rerun = Intervention(state, made)
-        assert rerun.quick is not None
-        search = ChangeSearch(rerun, Move.STAY, by_salience(rerun.percept, made))
-        row = rerun.percept.ego // 6
-        behind = [Edit(gone=name) for cell, name in rerun.percept.movers.items() if cell // 6 > row]
-        changes = [edits for each in behind for edits in ((each,), (each, CAUTIOUS))]
-        for edits in (*changes, (CAUTIOUS,)):
-            (move,) = TogetherTried(rerun, rerun.quick).made([edits]).values()
-            assert search._done(edits) is move, edits
-            compared += 1
-    assert compared > 20
 
 
 def test_what_stands_for_good_refuses_a_wall_unless_it_is_taken_away() -> None:
