@@ -237,6 +237,8 @@ def settings_of_shard(settings: Settings) -> Settings:
 
 def _connect(settings: Settings) -> None:
     os.environ["RAY_USAGE_STATS_ENABLED"] = "0"  # it would report to its makers
+    # Its workers would give way to whatever else the machine does; these hold sessions.
+    os.environ.setdefault("RAY_worker_niceness", "0")
     options: dict[str, Any] = {"logging_level": logging.ERROR, "log_to_driver": True}
     if settings.ray_address is None:
         options |= {
