@@ -1,4 +1,4 @@
-""" "How far is it?" after a question about a thing: it asks of that thing, and not of the goal.
+"""Asks how far "it" is after a question about a thing: of that thing, and not of the goal.
 
 The answers about things name each with its distance. So within one sentence the second question asks nothing
 more, and in the next sentence it asks the same again.
@@ -33,7 +33,7 @@ def without_distance_again(
             asks_where
             and kept
             and any(map(_is_of_a_thing, kept[-1].actions))
-            and _ends_with_it(clause, lattice, tokens)
+            and _ends_with_it(lattice, tokens, clause.start, clause.end)
         ):
             continue
         kept.append(clause)
@@ -49,7 +49,7 @@ def of_the_thing(lattice: Lattice, tokens: Sequence[Token], topic: Topic, parsed
     if not isinstance(last, Ask) or not isinstance(asked, Ask):
         return parsed
     before, now = dump((last, asked))
-    if not (_is_of_a_thing(before) and _is_of_place(now) and _names_it(lattice, tokens, 0, lattice.size)):
+    if not (_is_of_a_thing(before) and _is_of_place(now) and _ends_with_it(lattice, tokens, 0, lattice.size)):
         return parsed
     return replace(parsed, actions=(last,), supposes=(), alignment=())
 
@@ -66,11 +66,7 @@ _TOLD_OF = frozenset(("scene", "outlook"))
 """Questions whose answers say how far a thing is."""
 
 
-def _ends_with_it(clause: Clause, lattice: Lattice, tokens: Sequence[Token]) -> bool:
-    return _names_it(lattice, tokens, clause.start, clause.end)
-
-
-def _names_it(lattice: Lattice, tokens: Sequence[Token], start: int, end: int) -> bool:
+def _ends_with_it(lattice: Lattice, tokens: Sequence[Token], start: int, end: int) -> bool:
     """Whether the last word of some tokens is "it": in "how far is it to the goal?" it stands for nothing."""
     last = max((at for at in range(start, end) if tokens[at].text.isalnum()), default=None)
     return any(

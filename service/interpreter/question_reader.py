@@ -195,10 +195,16 @@ class _Likeness:
         return parse if isinstance(parse, Understood) and _only_asks(parse) else None
 
 
+def _as_question(read: _Read) -> str:
+    """Its sentence with a mark at its end, as it may have been cut out of a longer one."""
+    sentence = read.sentence.rstrip()
+    return sentence if sentence.endswith(("?", ".", "!")) else f"{sentence}?"
+
+
 def _joined(read: Sequence[_Read]) -> _Read:
     """Several questions as one text: each is answered, and none twice."""
     told = list({(each.parse.actions, each.parse.supposes): each for each in read}.values())
-    sentence = " ".join(each.sentence for each in told)
+    sentence = told[0].sentence if len(told) == 1 else " ".join(map(_as_question, told))
     actions = tuple(action for each in told for action in each.parse.actions)
     supposes = tuple(each for one in told for each in one.parse.supposes or (None,) * len(one.parse.actions))
     return _Read(sentence, Understood(sentence, actions, supposes=supposes))

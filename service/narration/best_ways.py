@@ -7,17 +7,15 @@ from typing import Final
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds
-from service.narration.move_list import moves_told
+from service.narration.move_list import MOST_RUNS, way_told
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain.best_way import BestWay, best_way
 from sim.explain.question_error import QuestionError
-from sim.types import Move, Outcome
+from sim.types import Outcome
 
 LANE: Final = "lane"
 """What a question supposes that asks for the lane."""
-MOST_RUNS: Final = 7
-"""Runs of like moves, and lanes, that are told of a way."""
 
 
 class BestWays:
@@ -51,26 +49,13 @@ class BestWays:
             "way",
             where,
             "one" if len(found.plan) == 1 else "many",
-            moves=self._moves(found.plan),
+            moves=way_told(self._sayings, found.plan),
             count=len(found.plan),
             seconds=in_seconds(self._sayings, len(found.plan), found.start.config),
         )
         lanes = self._lanes(found)
         parts = [Part(0, lanes), Part(0, way)] if lane_first else [Part(0, way), Part(1, lanes)]
         return [*parts, Part(1, self._really(found)), changed, Part(2, self._say("measure"))]
-
-    def _moves(self, moves: tuple[Move, ...]) -> str:
-        """The moves in their order, up to so many runs of like ones."""
-        runs, shown = 0, len(moves)
-        for at, move in enumerate(moves):
-            runs += at == 0 or move is not moves[at - 1]
-            if runs > MOST_RUNS:
-                shown = at
-                break
-        told = moves_told(self._sayings, moves[:shown])
-        if shown == len(moves):
-            return told
-        return self._sayings.say("plan_course", "and_more", moves=told, count=len(moves) - shown)
 
     def _lanes(self, found: BestWay) -> str:
         """The lanes that it goes through, in their order."""

@@ -7,18 +7,15 @@ from typing import Any, Final
 
 from service.narration.answer_length import Part, within
 from service.narration.answerer import Json, not_so, plain
-from service.narration.move_list import moves_told
+from service.narration.move_list import way_told
 from service.narration.naming import Naming
 from service.narration.sayings import Sayings
 from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.plan_course import PlanChange, PlanCourse, WayThen, plan_course, way_then
-from sim.types import Move
 
 WHETHER: Final = "whether"
 """What a question supposes that wants yes or no first (`Asked.supposes`)."""
-MOST_RUNS: Final = 7
-"""Runs of like moves that are told of a way."""
 
 
 class PlansTold:
@@ -126,20 +123,9 @@ class PlansTold:
             planner=planner,
             count=len(way.moves),
             seconds=seconds,
-            moves=self._moves(way.moves),
+            moves=way_told(self._sayings, way.moves),
         )
         return within([Part(0, told), Part(1, self._kept(found, asked.timeline.tick))]), facts
-
-    def _moves(self, moves: tuple[Move, ...]) -> str:
-        """The moves in their order, up to so many runs of like ones."""
-        runs, shown = 0, len(moves)
-        for at, move in enumerate(moves):
-            runs += at == 0 or move is not moves[at - 1]
-            if runs > MOST_RUNS:
-                shown = at
-                break
-        told = moves_told(self._sayings, moves[:shown])
-        return told if shown == len(moves) else self._say("and_more", moves=told, count=len(moves) - shown)
 
     def _kept(self, found: WayThen, now: int) -> str:
         assert found.way is not None
