@@ -199,6 +199,7 @@ def create_app(
         description=_DESCRIPTION,
         lifespan=_lifespan(context, aliases, model),
         docs_url=None,
+        openapi_url=None,  # `openapi` serves the document
         redoc_url=None,
         redirect_slashes=False,
         **_telemetry(),

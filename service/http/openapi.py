@@ -1,17 +1,22 @@
-"""The OpenAPI document, corrected where FastAPI's says what this service does not do.
+"""`/openapi.json`: the OpenAPI document, corrected where FastAPI's says what this service does not do.
 
 FastAPI documents a 422 of its own shape for every call with a parameter, and errors as plain JSON; here every
 error is a problem document, and a call answers the statuses it names and no others. The languages, which only
 the running service knows, are added.
+
+It takes seconds to make, so it is made at the first request, on a thread: sessions and streams go on.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from threading import Lock
 from typing import Any
 
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
+from starlette.requests import Request
+from starlette.responses import JSONResponse
 
 from service.contract.problem import ProblemDocument
 from service.http import access_control, openapi_links
@@ -21,25 +26,36 @@ from service.http.route import ApiRoute, GuardedRoute
 from service.http.route_policy import policy_of
 from service.problems import KINDS, MEDIA_TYPE
 
+PATH = "/openapi.json"
 _PROBLEM = {"$ref": "#/components/schemas/ProblemDocument"}
 _FRAMEWORK_ERRORS = ("HTTPValidationError", "ValidationError")
 
 
 def install(app: FastAPI) -> None:
-    """Serves the corrected document; it is made once."""
+    """Serves the corrected document; it is made once.
+
+    Precondition: `app` was made with `openapi_url=None`, since FastAPI's own route makes the document on the
+    event loop.
+    """
     generate: Callable[[], dict[str, Any]] = app.openapi
     languages: Sequence[str] = app.state.context.interpreter.languages.codes
     made: list[dict[str, Any]] = []
+    making = Lock()
 
     def openapi() -> dict[str, Any]:
-        if not made:
-            ProblemDocument.model_rebuild()  # once, rather than for each of the hundreds that are documented
-            document = generate()
-            _correct(document, [each for each in app.routes if isinstance(each, APIRoute)], languages)
-            made.append(document)
+        with making:
+            if not made:
+                ProblemDocument.model_rebuild()  # once, rather than for each of the hundreds documented
+                document = generate()
+                _correct(document, [each for each in app.routes if isinstance(each, APIRoute)], languages)
+                made.append(document)
         return made[0]
 
+    def serve(_: Request) -> JSONResponse:
+        return JSONResponse(openapi())
+
     app.openapi = openapi  # type: ignore[method-assign]
+    app.add_route(PATH, serve, methods=["GET"], include_in_schema=False)  # a plain function runs on a thread
 
 
 def _correct(document: dict[str, Any], routes: Sequence[APIRoute], languages: Sequence[str]) -> None:

@@ -19,6 +19,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import httpx
+
 from tests.contract.told import SEED, TOLD
 
 ROOT = Path(__file__).parents[2]
@@ -28,6 +30,8 @@ LINE_S = 10.0
 """How often progress is told where it is kept, not looked at."""
 GRACE_S = 15.0
 """For the tool to end by itself and write what it has found."""
+FIRST_S = 120.0
+"""For the first answer of a service that starts beside other work."""
 
 
 @contextmanager
@@ -45,7 +49,10 @@ def serving(folder: Path, settings: Mapping[str, str], *, key: str | None = None
     )
     assert process.stdout is not None
     try:
-        yield process.stdout.readline().rsplit(" ", 1)[-1].strip().rstrip("/")
+        url = process.stdout.readline().rsplit(" ", 1)[-1].strip().rstrip("/")
+        # The tool waits no more than 10 s for the document, which is made at the first request.
+        httpx.get(f"{url}/openapi.json", timeout=FIRST_S).raise_for_status()
+        yield url
     finally:
         process.kill()
         process.wait()

@@ -104,6 +104,17 @@ def resolved(schema: Json) -> Json:
     return schema
 
 
+async def test_the_document_is_made_beside_the_event_loop() -> None:
+    async with httpx.AsyncClient(transport=httpx.ASGITransport(asked()), base_url="http://test") as client:
+        asked_for = asyncio.create_task(client.get("/openapi.json"))
+        turns = 0
+        while not asked_for.done():
+            turns += 1
+            await asyncio.sleep(0)
+    assert asked_for.result().status_code == 200
+    assert turns > 200  # on the loop there are as many as there are awaits on the way: a few dozen
+
+
 def test_it_is_the_whole_interface_and_nothing_else() -> None:
     assert DOCUMENT["openapi"].startswith("3.1")
     assert {f"{p.values[1].upper()} {p.values[0]}" for p in OPERATIONS} == ROUTES
