@@ -287,7 +287,7 @@ _OF_A_THING = ("sighted", "last_detected", "places_before")
 """What of the past is asked of one thing."""
 _OF_A_SENSOR = ("weathers", "sensor_fault", "effect", "range", "detection", "would_see", "by_device")
 """What of sensing may be asked of one sensor."""
-_OF_A_KIND = ("detection", "belief", "would_see", "first_device")
+_OF_A_KIND = ("detection", "belief", "would_see", "first_device", "missed")
 """What of sensing may be asked of a kind of things."""
 _SUPPOSED = tuple(
     what for names in (PolicyName, SoonerName, SideName, ScaleName, SeedsName) for what in get_args(names)

@@ -317,6 +317,7 @@ def _ahead_and_back() -> Iterator[dict[str, Any]]:
             if what not in ("safe", "coming", "difference", "detection", "parting", *_NAMING_MORE):
                 yield {"do": "ask", "about": about, "what": what}
     yield {"do": "ask", "about": "sight", "what": "detection", "kind": "pedestrian"}
+    yield {"do": "ask", "about": "sight", "what": "missed", "kind": "vehicle"}
     yield {"do": "ask", "about": "sight", "what": "belief", "kind": "pothole"}
     yield {"do": "ask", "about": "sight", "what": "sensor_fault", "value": "radar"}
     yield {"do": "ask", "about": "outlook", "what": "others", "kind": "vehicle"}

@@ -55,9 +55,10 @@ class QuestionReader:
             parse = await to_thread.run_sync(self._languages[other].parse, text, ALONE, limiter=self._parsing)
             if isinstance(parse, Understood) and _only_asks(parse):
                 return Question(parse, other, "grammar")
+        apart = replace(ALONE, columns=topic.columns)
         for each in sorted(self._languages.codes, key=lambda other: other != code):
             question = await self._matched(
-                text, topic if each == code else ALONE, each, now, asks=self._asks and each == code
+                text, topic if each == code else apart, each, now, asks=self._asks and each == code
             )
             if question is not None:
                 return question
@@ -130,6 +131,10 @@ class _Likeness:
         last = self.topic.asked if self.topic.actions == self.topic.asked else ()
         if (match := self.matcher.follow_up(text, last)) is not None:
             return self._chosen(match)
+        if (numbered := self.matcher.with_numbered_lanes(text, self.topic.columns)) != text:
+            text = numbered
+            if (parse := self._understood(text)) is not None:
+                return _Read(text, parse)
         if (shorter := self._shortened(text)) is not None:
             return shorter
         parts = self._parts(text)

@@ -371,7 +371,7 @@ def _at_its_tick(asked: Asked) -> Asked:
         asked = replace(asked, ask=ask)
     if ask.ticks is not None and _meets_one_tick(ask) and ask.ticks <= now:
         return replace(asked, ask=replace(ask, tick=now - ask.ticks, ticks=None))
-    if ask.about == "what_if" and ask.move is not None and ask.tick is None:
+    if ask.about == "what_if" and ask.what is None and ask.move is not None and ask.tick is None:
         before = asked.talk.explained
         if before is not None and before.tick is not None and before.tick < now:
             return replace(asked, ask=replace(ask, tick=before.tick))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Final
 
 from service.contract.encode.sight import sensing_json, weather_effect_json
@@ -49,7 +50,7 @@ class Sights:
         found = sensing(state)
         tell = {
             "phantoms": self._phantoms,
-            "missed": self._missed,
+            "missed": partial(self._missed, kind=ask.kind and Kind(ask.kind)),
             "truth": self._truth,
             "blind": self._blind,
         }[str(ask.what)]
@@ -62,18 +63,22 @@ class Sights:
         told = self._named(things, found, as_seen=True)
         return self._say("phantoms", _form(things), count=len(things), things=told)
 
-    def _missed(self, found: Sensing) -> str:
+    def _missed(self, found: Sensing, kind: Kind | None) -> str:
         if found.faithful:
             return self._say("missed", "faithful")
-        return self._undetected(found, MOST_TOLD)
+        return self._undetected(found if kind is None else found.of_kind(kind), MOST_TOLD, kind)
 
-    def _undetected(self, found: Sensing, most: int) -> str:
-        """What is not detected, the nearest first, and how much of it is out of range."""
+    def _undetected(self, found: Sensing, most: int, kind: Kind | None = None) -> str:
+        """What is not detected, the nearest first, and how much of it is out of range; of one `kind` if said."""
         things, total = found.wrong.missed, found.things
+        if kind is None:
+            said, of = "missed", ""
+        else:
+            said, of = "missed_kind", self._sayings.things(kind, 1 if total == 1 and things else 2)
         if not things:
-            return self._say("missed", "all" if total else "empty", total=total)
+            return self._say(said, "all" if total else "empty", total=total, of=of)
         told = self._named(things, found, as_seen=False, most=most)
-        text = self._say("missed", _form(things), count=len(things), total=total, things=told)
+        text = self._say(said, _form(things), count=len(things), total=total, things=told, of=of)
         far = found.out_of_range
         return f"{text} {self._say('out_of_range', _count(far), count=far)}" if far else text
 

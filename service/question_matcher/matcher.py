@@ -19,6 +19,7 @@ from service.grammar import Language
 from service.grammar.parse_types import Understood
 from service.grammar.topic import ALONE
 from service.grammar.work_budget import BudgetExceededError, WorkBudget
+from service.question_matcher.edge_lanes import EdgeLanes
 from service.question_matcher.fillers import Fillers
 from service.question_matcher.follow_ups import FollowUps
 from service.question_matcher.kind_scores import KindScores
@@ -84,6 +85,7 @@ class QuestionMatcher:
             "_follow_ups",
             "_fillers",
             "_parts",
+            "_edge_lanes",
         ):  # made when they are first read
             getattr(self, table)
 
@@ -111,12 +113,20 @@ class QuestionMatcher:
     def _parts(self) -> Parts:
         return Parts(self._folder)
 
+    @cached_property
+    def _edge_lanes(self) -> EdgeLanes:
+        return EdgeLanes(self._folder)
+
     def follow_up(self, text: str, asked: Sequence[Action]) -> Match | None:
         """What a few words ask after the last question; None where they are no follow-up."""
         if len(text) > MOST_FOLLOWING or (found := self._follow_ups.match(text, asked)) is None:
             return None
         sentences, sure = found
         return Match(sentences, sure)
+
+    def with_numbered_lanes(self, text: str, columns: int) -> str:
+        """The same question of a road of so many columns, with "lane 8" for its rightmost lane."""
+        return self._edge_lanes.numbered(text, columns)
 
     def shortened(self, text: str) -> tuple[str, ...]:
         """A question without what does not change it (see `Fillers`); empty where it holds a request."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import floor
 from typing import Final
 
@@ -47,6 +47,10 @@ class Sensing:
         """How far a cell is from the ego, across or along the road."""
         column, row = self.state.world.road.cell(self.state.world.av)
         return max(abs(cell[0] - column), abs(cell[1] - row))
+
+    def of_kind(self, kind: Kind) -> Sensing:
+        """The same of the things of one kind alone."""
+        return replace(self, wrong=self.wrong.of(kind), things=self.state.world.count(kind))
 
     @property
     def out_of_range(self) -> int:
