@@ -153,7 +153,7 @@ WHAT_KEYS: Final[Mapping[str, tuple[frozenset[str], ...]]] = {
     "character": (frozenset(), frozenset(("planner",))),
     "own": (frozenset(), frozenset(("tick",))),
     "method": (frozenset(), frozenset(("planner",))),
-    "often": (frozenset(),),
+    **dict.fromkeys(("often", "ranked"), (frozenset(),)),
     "difference": (frozenset(("planners",)),),
     **dict.fromkeys(
         (*get_args(PlannerFactName), "effort", "hand_beside"), (frozenset(), frozenset(("planner",)))

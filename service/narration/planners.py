@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Final
 
 from service.actions import Ask
-from service.contract.encode.planners import character_json, own_move_json, planners_json
+from service.contract.encode.planners import character_json, own_move_json, planners_json, ranked_json
 from service.narration.answer_length import MOST_WORDS, Part, within
 from service.narration.answerer import Json, not_so, plain
 from service.narration.charges import in_seconds, seconds_worth
@@ -18,7 +18,7 @@ from service.sessions.facts import Asked
 from sim.explain import QuestionError
 from sim.explain.foresight import Foresight
 from sim.explain.own_move import OwnMove, own_move
-from sim.explain.planner_character import Character, character_of
+from sim.explain.planner_character import Character, character_of, characters
 from sim.explain.planners import Parting, PlannerDrive, PlannersHere, planner_of, planners_here
 from sim.plan import Decision, Measure
 from sim.session.timeline import Timeline
@@ -90,6 +90,8 @@ class Planners:
         ask, timeline = asked.ask, asked.timeline
         if ask.what == "character":
             return self._character(ask, timeline.state)
+        if ask.what == "ranked":
+            return self._ranked()
         if ask.what == "often":
             return self._often(timeline.state)
         if ask.what == "method":
@@ -262,6 +264,29 @@ class Planners:
         if found is None:
             return self._say("uncounted", planner=planner), character_json(None)
         return self._say("character", planner=planner, **self._figures(found)), character_json(found)
+
+    def _ranked(self) -> tuple[str, Json]:
+        """How all planners drive on the same roads; those that do equally well are named together."""
+        found = characters()
+        alike: dict[tuple[int, int, int], list[str]] = {}
+        for each in sorted(found.values(), key=lambda each: (-each.arrived, each.crashed, each.planner)):
+            alike.setdefault((each.arrived, each.crashed, each.stuck), []).append(each.planner)
+        roads = next(iter(found.values())).roads
+        rows = []
+        for (arrived, crashed, stuck), names in alike.items():
+            shares = {"arrived": arrived / roads, "crashed": crashed / roads, "stuck": stuck / roads}
+            told = {name: self._percent(share) for name, share in shares.items()}
+            planners = self._sayings.joined([self._sayings.planner(name) for name in names])
+            rows.append(self._say("ranked_row", planners=planners, **told))
+        quickest = min(found.values(), key=lambda each: each.arrival_s)
+        text = self._say(
+            "ranked",
+            roads=self._sayings.number(roads, ",d"),
+            rows="; ".join(rows),
+            quickest=self._sayings.planner(quickest.planner),
+            seconds=self._sayings.number(quickest.arrival_s, ".1f"),
+        )
+        return text, ranked_json(tuple(found.values()))
 
     def _often(self, state: SimState) -> tuple[str, Json]:
         """How often it arrived, crashed and got stuck: in this session, and on many roads."""

@@ -53,6 +53,11 @@ def character_json(found: Character | None) -> Json:
     return {"character": None if found is None else asdict(found), "command": command()}
 
 
+def ranked_json(found: Sequence[Character]) -> Json:
+    """The figures of all planners that were counted, and the command that made them."""
+    return {"characters": [asdict(each) for each in found], "command": command()}
+
+
 def own_move_json(found: OwnMove) -> Json:
     """A move beside the planner's."""
     lost = found.regret
