@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Final, get_args
 
-from service.actions import Ask, dump
+from service.actions import Ask, Resume, dump
 from service.actions.question_names import (
     DeviceFactName,
     HandFactName,
@@ -258,7 +258,7 @@ class Answers:
 
     def _answer(self, asked: Asked) -> Json:
         """The answer to a question of the present, or of the tick that it names."""
-        asked = _at_its_tick(asked)
+        asked = _at_its_tick(_of_driving_on(asked))
         named = asked.ask.what
         if asked.ask.what in _OF_AN_EARLIER_MOVE:
             try:
@@ -360,6 +360,14 @@ _OF_AN_EARLIER_MOVE: Final[Mapping[str | None, Callable[[Asked], Asked]]] = {
 def _meets_one_tick(ask: Ask) -> bool:
     """Whether so many ticks back is the tick of one decision, rather than where a stretch begins."""
     return ask.about not in ("history", "outlook") or ask.what in _OF_ONE_MOVE
+
+
+def _of_driving_on(asked: Asked) -> Asked:
+    """What if it goes on: a change of the clock alone supposes nothing, so what comes of the drive is asked."""
+    change = asked.ask.change or ()
+    if not change or not all(isinstance(each, Resume) for each in change):
+        return asked
+    return replace(asked, ask=Ask(about="outlook", what="arrival"))
 
 
 def _at_its_tick(asked: Asked) -> Asked:

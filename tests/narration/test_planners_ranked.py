@@ -16,5 +16,7 @@ def test_the_best_comes_first_and_every_planner_is_told_with_its_figures() -> No
     assert len(text.split()) <= 60
     assert text.index("A*") < text.index("Rules") < text.index("Priority rules")
     for each in characters().values():
-        assert f"{100 * each.stuck / each.roads:.1f}" in text or f"{100 * each.stuck / each.roads:.0f}" in text
+        assert (
+            f"{100 * each.stuck / each.roads:.1f}" in text or f"{100 * each.stuck / each.roads:.0f}" in text
+        )
     assert {each["planner"] for each in answer["characters"]} == characters().keys()
