@@ -363,7 +363,7 @@ def _meets_one_tick(ask: Ask) -> bool:
 
 
 def _of_driving_on(asked: Asked) -> Asked:
-    """What if it goes on: a change of the clock alone supposes nothing, so what comes of the drive is asked."""
+    """What if it goes on: that changes nothing but the clock, so what comes of the drive is asked."""
     change = asked.ask.change or ()
     if not change or not all(isinstance(each, Resume) for each in change):
         return asked

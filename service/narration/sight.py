@@ -69,7 +69,7 @@ class Sights:
         return self._undetected(found if kind is None else found.of_kind(kind), MOST_TOLD, kind)
 
     def _undetected(self, found: Sensing, most: int, kind: Kind | None = None) -> str:
-        """What is not detected, the nearest first, and how much of it is out of range; of one `kind` if said."""
+        """What is not detected (of one `kind`, if said), the nearest first, and how much is out of range."""
         things, total = found.wrong.missed, found.things
         if kind is None:
             said, of = "missed", ""
