@@ -136,10 +136,10 @@ PlannersName = Literal[
 """What about planners is asked.
 
 `ranked`: how all of them drive on many roads; `own`: what this session's would have done where a person
-drove; `method`: by what it chooses; `often`: how often it arrives, crashes and gets stuck; `difference`: how some
-differ in general; `effort`: how much a search looks at; `parting`: where two first decide otherwise on this
-road; `hand_beside`: where it would be now, had it driven in place of a person; `plan`: what was planned at a
-tick; `plan_changes`: how often what was left of a plan was given up.
+drove; `method`: by what it chooses; `often`: how often it arrives, crashes and gets stuck; `difference`: how
+some differ in general; `effort`: how much a search looks at; `parting`: where two first decide otherwise on
+this road; `hand_beside`: where it would be now, had it driven in place of a person; `plan`: what was planned
+at a tick; `plan_changes`: how often what was left of a plan was given up.
 """
 HistoryName = Literal[
     "closest_call",
