@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Final
@@ -48,7 +48,7 @@ class Sights:
         if ask.what == "range":
             return self._range_asked(asked)
         found = sensing(state)
-        tell = {
+        tell: dict[str, Callable[[Sensing], str]] = {
             "phantoms": self._phantoms,
             "missed": partial(self._missed, kind=ask.kind and Kind(ask.kind)),
             "truth": self._truth,
