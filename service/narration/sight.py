@@ -48,7 +48,7 @@ class Sights:
         if ask.what == "range":
             return self._range_asked(asked)
         found = sensing(state)
-        tell: dict[str, Callable[[Sensing], str]] = {
+        tell: Callable[[Sensing], str] = {
             "phantoms": self._phantoms,
             "missed": partial(self._missed, kind=ask.kind and Kind(ask.kind)),
             "truth": self._truth,
