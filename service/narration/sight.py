@@ -48,13 +48,14 @@ class Sights:
         if ask.what == "range":
             return self._range_asked(asked)
         found = sensing(state)
-        tell: Callable[[Sensing], str] = {
+        tellers: dict[str, Callable[[Sensing], str]] = {
             "phantoms": self._phantoms,
             "missed": partial(self._missed, kind=ask.kind and Kind(ask.kind)),
             "truth": self._truth,
             "blind": self._blind,
-        }[str(ask.what)]
-        return plain(self._sayings, ask, state, tell(found)) | {"what": ask.what} | sensing_json(found)
+        }
+        text = tellers[str(ask.what)](found)
+        return plain(self._sayings, ask, state, text) | {"what": ask.what} | sensing_json(found)
 
     def _phantoms(self, found: Sensing) -> str:
         if found.faithful:
