@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from functools import lru_cache
 
 from sim.decide import sense
@@ -144,6 +144,34 @@ def noticed(told: Told) -> Iterator[str]:
     yield from listed("gone", sorted(told["gone"]), sorted((set(was) - set(now)) & there))
 
 
+NOUNS = (
+    ("potholes?", Kind.POTHOLE),
+    ("barriers?", Kind.BARRIER),
+    ("cars?", Kind.VEHICLE),
+    ("pedestrians?", Kind.PEDESTRIAN),
+)
+
+
+def _missed_of_kind(told: Told, there: Sequence[Thing], missed: Collection[str]) -> Iterator[str]:
+    """How many things of the kind asked about are there, and are not detected."""
+    kind = told.thing_kind
+    if kind is None:
+        if len(missed) > 1:
+            yield f"misses {len(missed)}"
+        return
+    noun = next(noun for noun, each in NOUNS if each is kind)
+    of_kind = [each.id for each in there if each.kind is kind]
+    gone = len({*of_kind} & {*missed})
+    said = told.between(rf"Of (\d+) {noun} I do not detect (\d+)")
+    all_seen = told.between(rf"of the {noun} on the road I detect all (\d+)")
+    if said is not None:
+        yield from listed("said", said, [len(of_kind), gone])
+    elif all_seen is not None:
+        yield from listed("said", [*all_seen, 0], [len(of_kind), gone])
+    elif gone and not (gone == 1 and "I do not detect one" in told.text):
+        yield f"misses {gone}"
+
+
 def truth(told: Told) -> Iterator[str]:
     if not told.has("missed", "things"):
         return
@@ -155,16 +183,11 @@ def truth(told: Told) -> Iterator[str]:
     said = told.between(r"Of (\d+) things I do not detect (\d+)")
     if said is not None:
         yield from listed("said", said, [len(there), len(missed)])
-    elif len(missed) > 1 and told.kind == "missed":
-        yield f"misses {len(missed)}"
+    elif told.kind == "missed":
+        yield from _missed_of_kind(told, there, missed)
     if told.kind == "belief":
         counts = Counter(each.kind for each in there)
-        for noun, kind in (
-            ("potholes?", Kind.POTHOLE),
-            ("barriers?", Kind.BARRIER),
-            ("cars?", Kind.VEHICLE),
-            ("pedestrians?", Kind.PEDESTRIAN),
-        ):
+        for noun, kind in NOUNS:
             count = told.between(rf"there (?:are|is) [^.]*?(\d+) {noun}\b[^.]*on the road")
             if count is not None:
                 yield from differ(f"count of {kind}", count[0], counts[kind])
