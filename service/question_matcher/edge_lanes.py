@@ -12,7 +12,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from service.grammar.patterns import expand
+from service.question_matcher.phrases import any_of
 from service.yaml_files import read_yaml
 
 FILE = "edge_lanes.yaml"
@@ -47,9 +47,5 @@ class EdgeLanes:
         return self._pattern("rightmost")
 
     def _pattern(self, edge: str) -> re.Pattern[str] | None:
-        phrases = {words for each in self._data.get(edge, ()) for words in expand(each, {})}
-        if not phrases:
-            return None
-        longest_first = sorted(phrases, key=lambda words: (-len(words), words))
-        said = "|".join(r"\s+".join(map(re.escape, words)) for words in longest_first)
-        return re.compile(rf"(?<![\w'-])(?:{said})(?![\w'-])", re.IGNORECASE)
+        patterns = self._data.get(edge)
+        return any_of(patterns) if patterns else None

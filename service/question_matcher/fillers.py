@@ -12,7 +12,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from service.grammar.patterns import expand
+from service.question_matcher.phrases import any_of
 from service.yaml_files import read_yaml
 
 FILE = "fillers.yaml"
@@ -70,10 +70,7 @@ class Fillers:
 
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
-        phrases = {words for each in self._data["fillers"] for words in expand(each, {})}
-        longest_first = sorted(phrases, key=lambda words: (-len(words), words))
-        said = "|".join(r"\s+".join(map(re.escape, words)) for words in longest_first)
-        return re.compile(rf"(?<![\w'])(?:{said})(?![\w'])", re.IGNORECASE)
+        return any_of(self._data["fillers"])
 
 
 def _cut(text: str, spans: Sequence[tuple[int, int]]) -> str:
