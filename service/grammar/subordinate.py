@@ -331,8 +331,13 @@ def _past_marks(lattice: Lattice, at: int, end: int) -> int:
 def _actions(
     divided: Divided, start: int, end: int, never: frozenset[str]
 ) -> list[dict[str, Any]] | Fragment:
-    """The actions of clauses; the whole as not fitting where there are none, or one of `never`."""
+    """The actions of clauses; what does not fit where one of them has none, or one of `never`.
+
+    A clause without an action is one that forbids: "it never turned left" cannot be supposed beside a change.
+    """
     values = [value for clause in divided.clauses for value in clause.actions]
+    if values and (unsaid := next((clause for clause in divided.clauses if not clause.actions), None)):
+        return Fragment(unsaid.after, unsaid.start, unsaid.end)
     asks = any(clause.filled.frame.ask or clause.instead for clause in divided.clauses)
     if asks or not values or any(value["do"] in never for value in values):
         return Fragment("pause", start, max(end, start + 1))
