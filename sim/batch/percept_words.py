@@ -8,8 +8,8 @@ from functools import lru_cache
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from sim.batch.backward_dp import BUFFER
 from sim.batch.layout import Layout
 from sim.batch.one_decision import decided_totals, made_moves
 from sim.batch.reachability import VEHICLE
@@ -22,6 +22,7 @@ from sim.rules.dynamics import DEFAULT_DYNAMICS
 from sim.search.compiled_costs import COMPILED, Unlike
 from sim.search.costs import Weights
 from sim.types import MARKED, MOVES, Kind, Move
+from sim.world.grid import Board, union
 
 _ONE: Final = np.uint64(1)
 _ALL: Final = np.uint64(2**64 - 1)
@@ -29,8 +30,6 @@ WORD_BITS: Final = 64
 MOST_COLUMNS: Final = WORD_BITS
 """Columns of the widest road that fits into words."""
 _WALKERS: Final = MARKED.index(Kind.PEDESTRIAN)
-_MANY: Final = 4
-"""Ways to see from which on they are put into words together."""
 
 
 def make_ready() -> None:
@@ -74,29 +73,87 @@ def totals_of(forecast: Forecast, weights: Weights, limit: int) -> tuple[tuple[i
     """
     percept = forecast.percept
     last = _last_word(percept, weights.buffer)
-    seen = np.frombuffer(bytearray(_words(percept, Unlike(), last)), np.uint64).reshape(VEHICLE, last + 1)
+    seen = np.frombuffer(bytearray(_Planes(percept, last).words(Unlike())), np.uint64)
     out = np.empty(6, np.int64)
-    lasting = decided_totals(seen, *_place(percept, limit), last, np.array(_row(weights), np.int64), out)
+    place = *_place(percept, limit), last
+    lasting = decided_totals(seen.reshape(VEHICLE, last + 1), *place, np.array(_row(weights), np.int64), out)
     totals = tuple([None if total < 0 else total for total in out.tolist()])
     return totals, None if lasting < 0 else int(lasting)
 
 
-def moves_of(
-    percept: Percept, unlike: Sequence[Unlike], weights: Sequence[Weights], limit: int
-) -> list[Move]:
-    """The move that is made where each of these things is seen otherwise, by the charges beside it.
+class MoveKernel:
+    """The moves that are made where what one vehicle sees is otherwise, each time in another way."""
 
-    Precondition: `is_compiled_for` with each of the charges, and no ways to see less than one.
+    def __init__(self, percept: Percept, limit: int) -> None:
+        """`limit`: steps that are left, in ticks. Precondition: `is_compiled_for`, with all charges asked."""
+        self._percept = percept
+        self._place = _place(percept, limit)
+        self._planes: dict[int, _Planes] = {}
+        self._rows: dict[Weights, tuple[int, ...]] = {}
+
+    def moves(self, unlike: Sequence[Unlike], weights: Sequence[Weights]) -> list[Move]:
+        """The move where each of these things is seen otherwise, by the charges beside it; at least one."""
+        rows = [self._row(each) for each in weights]
+        last = _last_word(self._percept, max([row[BUFFER] for row in rows]))
+        planes = self._planes.get(last)
+        if planes is None:
+            planes = self._planes[last] = _Planes(self._percept, last)
+        words = bytearray().join([planes.words(each) for each in unlike])
+        seen = np.frombuffer(words, np.uint64).reshape(len(unlike), VEHICLE, last + 1)
+        moves = np.empty(len(unlike), np.uint8)
+        made_moves(seen, *self._place, last, np.array(rows, np.int64), moves)
+        return [MOVES[move] for move in moves.tolist()]
+
+    def _row(self, weights: Weights) -> tuple[int, ...]:
+        row = self._rows.get(weights)
+        if row is None:
+            row = self._rows[weights] = _row(weights)
+        return row
+
+
+class _Planes:
+    """The boards of what is seen as one number, plane after plane in the order of `NOW_RIGHT`.
+
+    Python changes a long number as quickly as a short one, so a way to see takes few operations.
     """
-    usual = weights[0]
-    alike = all(each is usual for each in weights)
-    last = _last_word(percept, usual.buffer if alike else max([each.buffer for each in weights]))
-    seen = _seen_otherwise(percept, unlike, last)
-    moves = np.empty(len(unlike), np.uint8)
-    rows = np.array([_row(usual)] if alike else [_row(each) for each in weights], np.int64)
-    charges = np.repeat(rows, len(unlike), 0) if alike else rows
-    made_moves(seen, *_place(percept, limit), last, charges, moves)
-    return [MOVES[move] for move in moves.tolist()]
+
+    def __init__(self, percept: Percept, last: int) -> None:
+        """`last`: the last word that matters."""
+        columns = percept.road.columns
+        self._bits, self._words = WORD_BITS // columns * columns, range(last + 1)
+        self._near = (1 << self._bits * (last + 1)) - 1
+        plane = WORD_BITS * (last + 1)
+        self._fixed_at, self._held_at = 3 * plane, 4 * plane
+        self._size = VEHICLE * plane // 8
+        boards = percept.boards
+        self._movers = self._laid(percept.right | percept.left)
+        self._fixed, self._holding = self._laid(boards.fixed), self._laid(boards.holding)
+        # Whatever is of movers goes with them; what is fixed, and who rests in a hole, is put in each time.
+        walkers = self._laid(boards.marked[_WALKERS])
+        right, left = self._laid(percept.right), self._laid(percept.left)
+        yielding, attentive = self._laid(percept.yielding), self._laid(percept.attentive)
+        of_movers = (right, left, walkers, 0, 0, yielding, attentive)
+        self._of_movers = sum(board << number * plane for number, board in enumerate(of_movers))
+        self._each_plane = sum(1 << number * plane for number in (0, 1, 2, 5, 6))
+
+    def words(self, unlike: Unlike) -> bytes:
+        """What is seen so: (7, words; uint64)."""
+        gone, gone_fixed, barriers, potholes = [self._laid(board) if board else 0 for board in unlike]
+        movers, rest = self._movers & ~gone, ~gone_fixed
+        fixed = self._fixed & rest | barriers | potholes
+        held = movers & (self._holding & rest | potholes)
+        of_movers = self._of_movers & ~(gone * self._each_plane) if gone else self._of_movers
+        seen = of_movers | fixed << self._fixed_at | held << self._held_at
+        return seen.to_bytes(self._size, "little")
+
+    def _laid(self, board: Board) -> int:
+        """A board as words: rows fill a word from its first bit, and none lies across two."""
+        board &= self._near
+        if self._bits == WORD_BITS:
+            return board
+        mask = (1 << self._bits) - 1
+        words = [(board >> word * self._bits & mask) << word * WORD_BITS for word in self._words]
+        return union(words)
 
 
 def _last_word(percept: Percept, buffer: int) -> int:
@@ -104,70 +161,6 @@ def _last_word(percept: Percept, buffer: int) -> int:
     road = percept.road
     row = min(percept.ego // road.columns + max(1, buffer), road.rows - 1)
     return row // Layout.of(road.columns, road.rows).rows_per_word
-
-
-def _seen_otherwise(percept: Percept, unlike: Sequence[Unlike], last: int) -> NDArray[np.uint64]:
-    """What is seen, each time otherwise (ways to see, 7, words up to the last)."""
-    shape = len(unlike), VEHICLE, last + 1
-    if len(unlike) < _MANY:
-        words = b"".join([_words(percept, each, last) for each in unlike])
-        return np.frombuffer(bytearray(words), np.uint64).reshape(shape)
-    boards = percept.boards
-    usual = (
-        percept.right,
-        percept.left,
-        boards.marked[_WALKERS],
-        boards.fixed,
-        boards.holding,
-        percept.yielding,
-        percept.attentive,
-    )
-    right, left, walkers, fixed, holding, yielding, attentive = _as_words(percept, usual, last)
-    gone, gone_fixed, barriers, potholes = (
-        _as_words(percept, [each[plane] for each in unlike], last) for plane in range(4)
-    )
-    stay, rest = ~gone, ~gone_fixed
-    seen = np.empty(shape, np.uint64)
-    seen[:, 0], seen[:, 1], seen[:, 2] = right & stay, left & stay, walkers & stay
-    seen[:, 3] = fixed & rest | barriers | potholes
-    seen[:, 4] = (seen[:, 0] | seen[:, 1]) & (holding & rest | potholes)
-    seen[:, 5], seen[:, 6] = yielding & stay, attentive & stay
-    return seen
-
-
-def _as_words(percept: Percept, boards: Sequence[int], last: int) -> NDArray[np.uint64]:
-    """The words up to the last of each of these boards."""
-    words = b"".join(_bytes_of(percept, boards, last))
-    return np.frombuffer(words, np.uint64).reshape(len(boards), last + 1)
-
-
-def _words(percept: Percept, unlike: Unlike, last: int) -> bytes:
-    """What is seen, in the order of `NOW_RIGHT` without the vehicle: the words up to the last."""
-    boards = percept.boards
-    stay, rest = ~unlike.movers, ~unlike.fixed
-    right, left = percept.right & stay, percept.left & stay
-    held = boards.holding & rest | unlike.potholes
-    seen = (
-        right,
-        left,
-        boards.marked[_WALKERS] & stay,
-        boards.fixed & rest | unlike.barriers | unlike.potholes,
-        (right | left) & held,
-        percept.yielding & stay,
-        percept.attentive & stay,
-    )
-    return b"".join(_bytes_of(percept, seen, last))
-
-
-def _bytes_of(percept: Percept, boards: Sequence[int], last: int) -> list[bytes]:
-    """The words up to the last of boards, one after the other."""
-    columns = percept.road.columns
-    size = WORD_BITS // columns * columns
-    if size == WORD_BITS:
-        length, near = 8 * (last + 1), (1 << WORD_BITS * (last + 1)) - 1
-        return [(board & near).to_bytes(length, "little") for board in boards]
-    words, mask = range(last + 1), (1 << size) - 1
-    return [(board >> word * size & mask).to_bytes(8, "little") for board in boards for word in words]
 
 
 @lru_cache(maxsize=64)

@@ -17,7 +17,7 @@ from sim.search.compiled_costs import are_loaded, load_compiled_costs
 from sim.search.costs import weights
 from sim.state import SimState
 
-FOR_CAUSES: Final = 1_500
+FOR_CAUSES: Final = 1_100
 """Work of looking for causes; a unit is some ten microseconds."""
 FOR_CHANGES: Final = 1_500
 """Work of looking for a change."""

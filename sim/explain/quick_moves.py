@@ -15,7 +15,7 @@ from sim.explain.factors import factors, is_factor, without
 from sim.perceive import Percept
 from sim.plan import Decision, Measure
 from sim.rules.compiled import compiled_rules
-from sim.search.compiled_costs import Unlike, are_loaded, compiled_moves
+from sim.search.compiled_costs import Unlike, are_loaded, move_kernel
 from sim.search.compiled_rows import BY_RANK, MOST_COLUMNS, compiled_moves_by_rank
 from sim.search.costs import TICKS_ALONE, Weights, weights
 from sim.search.reachability import steps_left
@@ -63,7 +63,8 @@ class QuickMoves:
         self._config, self._percept, self._fact = config, percept, decision.move
         self._by_cost = decision.measure is Measure.COST
         self._charges = weights(config) if self._by_cost else TICKS_ALONE
-        self._limit = steps_left(config, percept.episode_tick)
+        if self._ranked is None:
+            self._kernel = move_kernel(percept, steps_left(config, percept.episode_tick))
         self._movers = {name: 1 << cell for cell, name in percept.movers.items()}
         self._fixed = {name: 1 << cell for cell, name in percept.hazards.items()}
         self._all_movers, self._all_fixed = union(self._movers.values()), union(self._fixed.values())
@@ -82,7 +83,7 @@ class QuickMoves:
                 moves = compiled_moves_by_rank(self._percept, self._ranked, unlike)
             else:
                 charges = [changes[place].charges for place in asked]
-                moves = compiled_moves(self._percept, unlike, charges, self._limit)
+                moves = self._kernel.moves(unlike, charges)
             for place, move in zip(asked, moves, strict=True):
                 found[place] = move
         return found

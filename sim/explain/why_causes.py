@@ -17,6 +17,7 @@ spared; whether any smaller part would do is then tried outright.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import combinations
 from typing import Protocol
@@ -151,7 +152,8 @@ def _had_it_been_blocked(rerun: Intervention, decision: Decision) -> list[Counte
         return []
     change = (wall(rerun.state.world, decision.chosen.cell),)
     try:
-        return [Counterfactual(change, rerun.after(change))]
+        move = rerun.behind_barriers((), [rerun.state.world.road.index(decision.chosen.cell)])
+        return [Counterfactual(change, rerun.after(change) if move is None else move)]
     except (EditError, WorkSpentError):  # something is there that was not seen
         return []
 
@@ -174,15 +176,21 @@ def _of_necessary(tried: Tried, fact: object, names: list[str]) -> list[str]:
 
 
 def _groups(tried: Tried, fact: object, names: list[str], enough: list[str]) -> dict[str, tuple[str, ...]]:
-    """The group of each cause; of the causes that are not necessary, only the first `MAX_GROUPS` get one."""
+    """The group of each cause; of the causes that are not necessary, only the first `MAX_GROUPS` get one.
+
+    Nor do those that the work does not reach: that they are causes holds.
+    """
     necessary = {name for name in enough if tried.without([name]) is not fact}
     looked_for = [name for name in enough if name not in necessary][:MAX_GROUPS]
     groups: dict[str, tuple[str, ...]] = {}
     for name in enough:
         if name in necessary:
             groups[name] = (name,)
-        else:
-            groups[name] = _group(tried, fact, name, names, enough) if name in looked_for else ()
+            continue
+        groups[name] = ()
+        if name in looked_for:
+            with suppress(WorkSpentError):
+                groups[name] = _group(tried, fact, name, names, enough)
     return groups
 
 

@@ -8,9 +8,9 @@ that weigh costs answer from it. The answers are the same ones.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from sim.compiled_files import ready_mark
 from sim.forecast import Forecast
@@ -18,6 +18,9 @@ from sim.perceive import Percept
 from sim.search.costs import Weights
 from sim.types import MOVES, Move
 from sim.world.grid import Board
+
+if TYPE_CHECKING:
+    from sim.batch.percept_words import MoveKernel
 
 COMPILED: Final = "one_decision"
 """Under which it is kept that they were compiled (`sim.compiled_files`)."""
@@ -103,16 +106,14 @@ def compiled_costs(forecast: Forecast, weights: Weights, limit: int) -> Compiled
     return CompiledCosts(totals, None if lasting is None else MOVES[lasting])
 
 
-def compiled_moves(
-    percept: Percept, unlike: Sequence[Unlike], weights: Sequence[Weights], limit: int
-) -> list[Move]:
-    """The move that is made where each of these things is seen otherwise, by the charges beside it.
+def move_kernel(percept: Percept, limit: int) -> MoveKernel:
+    """What tells the moves where things are seen otherwise, with `limit` ticks left.
 
     Precondition: `are_loaded`, and `compiled_costs` answers for what is seen.
     """
-    from sim.batch.percept_words import moves_of
+    from sim.batch.percept_words import MoveKernel
 
-    return moves_of(percept, unlike, weights, limit)
+    return MoveKernel(percept, limit)
 
 
 if __name__ == "__main__":  # in a process of its own, so that nobody waits for a compiler

@@ -125,7 +125,7 @@ def test_moves_after_changes_are_those_of_the_planner(
         )
         for some in gone
     ]
-    found = compiled.compiled_moves(percept, unlike, [charges] * len(unlike), limit)
+    found = compiled.move_kernel(percept, limit).moves(unlike, [charges] * len(unlike))
     compiled.forget_compiled_costs()
     assert found == [decide_on(state, percept.without(some)).move for some in gone]
     compiled.load_compiled_costs()
@@ -138,7 +138,7 @@ def test_barriers_and_potholes_may_be_added() -> None:
     ahead = board_of([11, 12, 13])
     added = (compiled.Unlike(barriers=ahead), Kind.BARRIER), (compiled.Unlike(potholes=ahead), Kind.POTHOLE)
     for unlike, kind in added:
-        found = compiled.compiled_moves(percept, [compiled.Unlike(), unlike], [charges, charges], limit)
+        found = compiled.move_kernel(percept, limit).moves([compiled.Unlike(), unlike], [charges, charges])
         boards = percept.boards.with_kind(kind, ahead)
         seen = replace(percept, boards=boards, hazards={11: "a", 12: "b", 13: "c"})
         assert found == [Move.FORWARD, decide_on(state, seen).move]
