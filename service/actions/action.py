@@ -189,7 +189,8 @@ class Ask:
             raise ValueError("'count' is of where another one goes, within some ticks")
         if self.what in get_args(SoFarName) and not self._varies_settings():
             raise ValueError(
-                "of the drive so far another planner, sensor, weather or time of day is supposed"
+                "of the drive so far another planner, sensor, weather or time of day is supposed,"
+                " or courtesy or sensor noise 0"
             )
         if self.what in get_args(PastMoveName) and self.move is None:
             raise ValueError("of a move that was made it is said which is supposed instead")
@@ -206,8 +207,10 @@ class Ask:
     def _varies_settings(self) -> bool:
         """Whether a change is of settings that a drive can be driven again with, each named once."""
         change = self.change or ()
-        named = [each.parameter for each in change if isinstance(each, Set) and isinstance(each.value, str)]
-        known = set(named) <= {"planner", "sensor", "weather", "time_of_day"}
+        settings = [each for each in change if isinstance(each, Set)]
+        named = [each.parameter for each in settings if isinstance(each.value, str)]
+        named += [each.parameter for each in settings if each.parameter in _SUPPOSED_OFF and each.value == 0]
+        known = set(named) <= {"planner", "sensor", "weather", "time_of_day", *_SUPPOSED_OFF}
         return bool(change) and len(set(named)) == len(change) and known and self.count is None
 
     def _check_sight(self) -> None:
@@ -289,6 +292,8 @@ _OF_A_SENSOR = ("weathers", "sensor_fault", "effect", "range", "detection", "wou
 """What of sensing may be asked of one sensor."""
 _OF_A_KIND = ("detection", "belief", "would_see", "first_device", "missed")
 """What of sensing may be asked of a kind of things."""
+_SUPPOSED_OFF = ("courtesy", "sensor_noise")
+"""What may be supposed not to have been since the start."""
 _SUPPOSED = tuple(
     what for names in (PolicyName, SoonerName, SideName, ScaleName, SeedsName) for what in get_args(names)
 )

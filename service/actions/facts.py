@@ -287,6 +287,7 @@ Term = Literal[
     "grid",
     "layout",
     "lidar",
+    "near_miss",
     "occupancy",
     "pedestrian",
     "percept",

@@ -195,6 +195,9 @@ def _questions() -> Iterator[dict[str, Any]]:
         for value in CHOICES[parameter]:
             change = [{"do": "set", "parameter": parameter, "value": value}]
             yield {"do": "ask", "about": "what_if", "what": "so_far", "change": change}
+    for parameter in ("courtesy", "sensor_noise"):
+        without = {"do": "set", "parameter": parameter, "value": 0}
+        yield {"do": "ask", "about": "what_if", "what": "so_far", "change": [without]}
     for move in Move:
         yield {"do": "ask", "about": "what_if", "what": "own_last", "move": move}
     yield {"do": "ask", "about": "why", "what": "other_side"}

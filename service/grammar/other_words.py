@@ -43,6 +43,8 @@ _OUTCOMES = frozenset((_READ, _SCALE, _LASTS, _BACK, _ASK, _WHY))
 _KINDS, _ONE = "kinds", "one"
 """Slots for a kind of thing, by its word for many or for one."""
 _QUESTION_MARK = "?"
+_WHOLE = "marker.whole"
+"""Concept of words that mean something together alone."""
 _NEW_ROAD = frozenset(("columns", "rows", "seed", "traffic", "playback_speed"))
 """Settings that are not as before where they are set back: the road is another one, or no rule sets them."""
 
@@ -176,8 +178,13 @@ class _Reading:
 
     def _divided(self) -> tuple[Action, ...] | None:
         """The actions of a text of several requests, of which one at least is in other words."""
-        found = self._after(0, MAX_PARTS, fits=False)
-        return found or None
+        size = len(self._tokens)
+        for end, following in sorted(self._ends(0)):  # the end of a request may be another one alone
+            if end < size and (last := self._actions(following, size)):
+                first = self._actions(0, end) or self._plainly(0, end, leaning=False)
+                if first is not None:
+                    return (*first, *last)
+        return self._after(0, MAX_PARTS, fits=False) or None
 
     def _after(self, start: int, parts: int, *, fits: bool) -> tuple[Action, ...] | None:
         """The actions of the requests from a token on. `fits`: one before was in other words."""
@@ -398,7 +405,10 @@ class _Reading:
         places = {start}
         for at in range(start, end):
             if at in places:
-                places.update(e.end for e in self._lattice.edges[at] if e.end < end and self._is_idle(e))
+                edges = self._lattice.edges[at]
+                # Of words such as "instead of", each says nothing by itself.
+                least = max((edge.end for edge in edges if edge.concept == _WHOLE), default=at)
+                places.update(e.end for e in edges if least <= e.end < end and self._is_idle(e))
         return sorted(places)
 
     def _closing(self, start: int, end: int) -> set[int]:

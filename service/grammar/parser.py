@@ -15,6 +15,7 @@ from pydantic import ValidationError
 from service.actions import Action, Ask, load
 from service.grammar.asking import Asking, once
 from service.grammar.clause import Clause, Divided
+from service.grammar.composition import asks
 from service.grammar.contradictions import contradiction
 from service.grammar.distance_of_it import without_distance_again
 from service.grammar.fragments import AND, STOP, Fragment
@@ -192,8 +193,10 @@ def _asks_and_acts(clauses: Sequence[Clause]) -> bool:
 
 
 def _denied_beside_question(clauses: Sequence[Clause]) -> Clause | None:
-    """What is denied in one breath with a question and so belongs to it: "and not left"."""
+    """What is denied in one breath with a question and so belongs to it, "and not left"; or a question itself."""
     for before, clause in pairwise(clauses):
+        if clause.negated and not clause.actions and asks(clause.filled.frame.actions):
+            return clause
         asked = before.actions and all(action["do"] == "ask" for action in before.actions)
         if asked and clause.negated and clause.after != STOP:
             return clause

@@ -259,6 +259,9 @@ class Sentences(RuleSentences):
                 if ask.tick is not None:
                     raise Unsayable("a way of driving from a tick on")
                 if ask.what == "so_far":
+                    match ask.change:
+                        case (Set(parameter="courtesy" | "sensor_noise" as without),):
+                            return self._word("what_if_without", without)
                     return self._say("what_if_so_far", settings=self._settings(ask.change or ()))
                 things = "" if ask.kind is None else self._entry("things", ask.kind)[1]
                 return self._say(f"{ask.about}_{ask.what}", move=move, things=things, lane=ask.lane)

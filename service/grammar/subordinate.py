@@ -145,9 +145,11 @@ def _sentences(lattice: Lattice, start: int, end: int) -> list[tuple[str, int, i
     found: list[tuple[str, int, int]] = []
     after, begin, conditional = PAUSE, start, begins.asks(start)
     edges = sorted(lattice.between(start, end), key=lambda each: (each.start, -each.end))
-    told = {at for edge in edges if edge.concept == THEN_PREFACE for at in range(edge.start, edge.end)}
+    inner = {at for edge in edges if edge.concept == THEN_PREFACE for at in range(edge.start, edge.end)}
+    openers = [edge for edge in edges if edge.concept == WHAT_IF]
+    inner.update(at for edge in openers for at in range(edge.start + 1, edge.end))  # "was wäre, wenn"
     for edge in edges:
-        if edge.concept != SEPARATOR or edge.start < begin or edge.start in told:
+        if edge.concept != SEPARATOR or edge.start < begin or edge.start in inner:
             continue
         if begins.teaches(edge.end):
             return whole
@@ -180,7 +182,8 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
             supposes = _end_supposed(lattice, (first, last), (start, end))
             return Clause(begin, stop, Filled(replace(_FRAME, supposes=supposes), []), [driven])
         divided = divide(first, last, CONDITIONAL)
-        found = divided.failed or _actions(divided, first, last, NO_CHANGE)
+        found = divided.failed or _beside_drive(lattice, divided, first, last)
+        found = found or _actions(divided, first, last, NO_CHANGE)
         if not isinstance(found, Fragment):
             of_road = any(
                 value.get("parameter") in ROAD_SIZE for value in found
@@ -194,6 +197,8 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
         failed = failed or found
         if last == end and cut is None:
             cut = _before_question(divided)
+            if cut is not None and (driven := _drive_supposed(lattice, first, cut[0])) is not None:
+                return Clause(begin, cut[0], Filled(_FRAME, []), [driven])
     return failed if cut is None else _what_if(begin, *cut)
 
 
@@ -214,6 +219,18 @@ def _drive_supposed(lattice: Lattice, start: int, end: int) -> dict[str, Any] | 
     if tick is None or _past_marks(lattice, tick.end, end) < end:
         return None
     return asked | {"tick": tick.sense.value}
+
+
+def _beside_drive(lattice: Lattice, divided: Divided, start: int, end: int) -> Fragment | None:
+    """A way of driving that is supposed beside a change of the road, as one move of which it could be read."""
+    begins = range(start, min(_past_marks(lattice, start, end), end - 1) + 1)
+    found = next((edge for at in begins if (edge := _longest(lattice, at, SUPPOSED_DRIVE))), None)
+    if found is None or found.sense.value not in get_args(PolicyName):
+        return None
+    changes = (value for clause in divided.clauses if clause.start >= found.end for value in clause.actions)
+    if all(value["do"] == DRIVE for value in changes):
+        return None
+    return Fragment(PAUSE, found.start, found.end)
 
 
 def _what_if(start: int, end: int, change: list[dict[str, Any]], *, past: bool = False) -> Clause:

@@ -27,6 +27,9 @@ MOST_STEPS = 2_000
 MOST_PARTS = 3
 """In how many parts of a sentence something may be wrong."""
 
+_MARKS = ",.;:?!"
+"""Marks before which no space stands."""
+
 Span: TypeAlias = tuple[int, int]
 """Tokens `[start, end)`."""
 
@@ -153,7 +156,8 @@ class GapFinder:
             if at > first:
                 kept.append(self._plain[self._tokens[first].start : self._tokens[at - 1].end])
             at += 1
-        return " ".join(kept).strip()
+        text = "".join(each if each[0] in _MARKS else f" {each}" for each in kept)
+        return text.strip()
 
     def _with_joint(self, start: int, end: int) -> Span:
         for at, part in enumerate(self._parts):

@@ -114,7 +114,8 @@ class Outlooks:
             return self._say("safe", "hit", who=naming.things(names), **first)
         end = end_told(self._sayings, found.then, since=found.state.world.tick)
         if found.safe:
-            return self._say("safe", "good" if found.proved else "sampled", end=end, **first)
+            doing = self._sayings.move(found.move, "doing")
+            return self._say("safe", "good" if found.proved else "sampled", end=end, doing=doing, **first)
         if found.then.by_chance:
             share = share_told(self._sayings, found.then.crashes, found.then.chances)
             return self._say("safe", "crash_chance", share=share, **first)

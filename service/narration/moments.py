@@ -59,6 +59,7 @@ class Moments:
             "when": when(self._sayings, found.before, found.tick, timeline.tick),
             "free": len(found.free),
             "tried": len(found.tried),
+            "move": self._sayings.move(found.made, "name"),
         }
         call = ""
         if found.call is not None and not found.crashed:

@@ -42,7 +42,7 @@ class SceneAsked:
         place = json.loads(text[at:end]) if 0 <= at < end else {}
         words = (text[:at] + text[end:]).split() if place else text.split()
         if WITHIN in words and (rows := words[-1]).isdigit():
-            place = place | {"cells": int(rows)}
+            place = place | {"next_rows": int(rows)}
         if place.get("sides") == ["ahead"] and len(place) == 1:
             place = {}  # what is ahead is told first in any case
         return cls(tuple(words), place)

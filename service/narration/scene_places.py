@@ -87,6 +87,8 @@ class ScenePlaces:
             return False
         if "cell" in place and (column - 1, row) != tuple(place["cell"]):
             return False
+        if "next_rows" in place and not 0 < thing.rows <= place["next_rows"]:
+            return False
         cells = self._cells(place)
         if cells is not None and max(abs(thing.lanes), abs(thing.rows)) > cells:
             return False
@@ -109,6 +111,8 @@ class ScenePlaces:
             parts.append(self._say("in_row", row=place["row"]))
         if "rows" in place:
             parts.append(self._say("in_rows", first=place["rows"][0], last=place["rows"][-1]))
+        if (count := place.get("next_rows")) is not None:
+            parts.append(self._say("in_next_rows", "one" if count == 1 else "many", count=count))
         if (cells := self._cells(place)) is not None:
             parts.append(self._say("within", metres=self._told.number(cells * self._cell_m)))
         parts += [self._say("on_side", side) for side in _sides(place)]

@@ -35,7 +35,10 @@ class DrivesSoFar:
         ask, timeline = asked.ask, asked.timeline
         state = timeline.state
         change = ask.change or ()
-        varied: dict[str, str] = {each.parameter: str(each.value) for each in change if isinstance(each, Set)}
+        varied: dict[str, str | float] = {}
+        for each in change:
+            if isinstance(each, Set):
+                varied[each.parameter] = str(each.value) if isinstance(each.value, str) else 0.0
         if "planner" in varied:
             varied["planner"] = str(canonical(varied["planner"]))
         try:
@@ -83,10 +86,13 @@ class DrivesSoFar:
             made=self._sayings.move(differs.made, "name"),
         )
 
-    def _with(self, name: str, value: str) -> str:
-        if name == "planner":
-            return self._say("with", "planner", planner=self._sayings.planner(value, "with"))
-        return self._say("with", name, value)
+    def _with(self, name: str, value: str | float) -> str:
+        match name, value:
+            case "planner", str():
+                return self._say("with", "planner", planner=self._sayings.planner(value, "with"))
+            case _, str():
+                return self._say("with", name, value)
+        return self._say("with", name)
 
     def _led_to(self, found: SoFar, state: SimState) -> str:
         """What it led to by then, or in the end."""

@@ -19,7 +19,7 @@ from service.question_matcher.weights import Weights
 LEAST_SURE: Final = 1.0
 """Least certainty of what is answered at once: the logarithm of the odds that its answer is a right one.
 
-Of 838 questions that were not learnt from, 337 are as certain as this, and 95 % of them are read rightly.
+Of 1,254 questions that were not learnt from, 554 are as certain as this, and 94 % of them are read rightly.
 """
 
 

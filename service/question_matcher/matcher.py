@@ -43,7 +43,7 @@ MIN_LETTERS = 4
 LEAST_LIKELY = -0.5
 """Least certainty of a question whose answer is given beside the question back.
 
-Of 838 questions that were not learnt from, 268 lie between this and what is sure; of these 57 % are read
+Of 1,254 questions that were not learnt from, 430 lie between this and what is sure; of these 68 % are read
 rightly.
 """
 MAX_CHOICES = 3

@@ -92,7 +92,7 @@ class SlotWords:
                 slots[second] = span.slots[slot]
         if "move" not in binding:
             # Beside a side that may be a move, straight on may be the second of two moves.
-            alone = (STAY,) if self._names_a_side(lattice) else (STAY, FORWARD)
+            alone = (STAY,) if self._names_a_side(tokens, lattice) else (STAY, FORWARD)
             moves = (move for move in alone if any(word in self._data[move] for word in words))
             slots |= next((self._data["moves"][move] for move in moves), {})
         elif "instead" not in binding and self._goes_straight_after(words):
@@ -112,9 +112,19 @@ class SlotWords:
         """Whether straight on is named behind a move."""
         return any(word in self._data[FORWARD] for word in words[words.index("<move>") :])
 
-    def _names_a_side(self, lattice: Lattice) -> bool:
+    def _names_a_side(self, tokens: Sequence[Token], lattice: Lattice) -> bool:
         aside = self._data["moves"].keys() - {FORWARD, STAY}
-        return any(edge.concept == "dir" and str(edge.sense.value) in aside for edge in lattice.all())
+        return any(
+            edge.concept == "dir" and str(edge.sense.value) in aside and not self._comes_from(edge, tokens)
+            for edge in lattice.all()
+        )
+
+    def _comes_from(self, edge: Edge, tokens: Sequence[Token]) -> bool:
+        """Whether a side is where something comes from: "the car from the left"."""
+        start = edge.start
+        while start > 0 and tokens[start - 1].text in self._data["determiners"]:
+            start -= 1
+        return start > 0 and tokens[start - 1].text in self._data.get("origin", ())
 
     def says_something(self, question: Question) -> bool:
         """Whether a question has a word of its own, beside slots and openers, and is no stump."""
@@ -218,14 +228,25 @@ class SlotWords:
             if concept == _MANY or (start and tokens[start - 1].text in self._data["indefinite"]):
                 yield _Span(first, end, "things", slots)
                 continue
-            places = lattice.edges[end] if end < len(tokens) else ()
+            at = end
+            while at < len(tokens) - 1 and tokens[at].text in self._data.get("before_a_place", ()):
+                at += 1
+            places = lattice.edges[at] if at < len(tokens) else ()
             place = next((edge for edge in places if _is_place(edge)), None)
-            if place is None:
+            if place is None and self._is_a_distance(tokens, lattice, end):
+                yield _Span(start, end + 2, "elsewhere", {})
+            elif place is None:
                 mark = _EGO if self._is_the_ego(tokens, start, end) else "thing"
                 yield _Span(start, end, mark, slots | {"thing": names["this"]})
             else:
                 where = _text(tokens, place.start, place.end)
                 yield _Span(start, place.end, "thing", slots | {"thing": f"{names['one']} {where}"})
+
+    def _is_a_distance(self, tokens: Sequence[Token], lattice: Lattice, at: int) -> bool:
+        """Whether a number of lanes or cells follows that tells no side: "the car two lanes over"."""
+        if at + 1 >= len(tokens) or tokens[at + 1].text not in self._data.get("distances", ()):
+            return False
+        return any(edge.concept == "number" and edge.end == at + 1 for edge in lattice.edges[at])
 
     def _is_the_ego(self, tokens: Sequence[Token], start: int, end: int) -> bool:
         """Whether a thing is called as the vehicle itself is: "the car", but not "the car that turned"."""
@@ -243,7 +264,7 @@ class SlotWords:
         before = tokens[edge.start - 1].text if edge.start else ""
         after = tokens[edge.end].text if edge.end < len(tokens) else ""
         beside = self._data["no_move"]
-        if before in beside["after"]:
+        if before in beside["after"] or self._comes_from(edge, tokens):
             return False
         if after not in beside["before"]:
             return True

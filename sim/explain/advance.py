@@ -24,8 +24,14 @@ class Advance:
 
 
 def advance(timeline: Timeline, query: Query) -> Advance:
-    """The rows of the stretch that a query names. Raises `QuestionError`: `no_such_tick`, `too_long`."""
+    """The rows of the stretch that a query names. Raises `QuestionError`: `no_such_tick`, `too_long`.
+
+    Between two ticks that is from where it was at the one to where it was at the other.
+    """
     first, stop = stretch_of(timeline, query)
+    last = stop - 1
+    if query.last is not None and last > first:
+        stop = last
     ticks = rows = 0
     states = timeline.between(first, min(stop, timeline.tick) + 1)
     for before, after in pairwise(states):
@@ -34,4 +40,4 @@ def advance(timeline: Timeline, query: Query) -> Advance:
             continue
         ticks += 1
         rows += world.road.cell(world.av)[1] - then.road.cell(then.av)[1]
-    return Advance(first, stop - 1, ticks, rows)
+    return Advance(first, last, ticks, rows)

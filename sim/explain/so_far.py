@@ -1,4 +1,5 @@
-"""The present drive up to now, driven again from its start with planner, sensor, weather or light otherwise.
+"""The present drive up to now, driven again from its start with planner, sensor, weather or light otherwise,
+or without courtesy or noise.
 
 The seed is the same, and what people said meanwhile is said again at the same ticks, without settings of what
 is varied. A drive that has ended is followed to the end of the other one; of one that goes on, both are
@@ -25,7 +26,7 @@ from sim.types import Kind, Outcome
 class SoFar:
     """The drive so far beside the same one with something otherwise, for the first ego."""
 
-    varied: Mapping[str, str]
+    varied: Mapping[str, str | float]
     moves: int
     """moves of the real drive"""
     compared: int
@@ -51,8 +52,8 @@ class SoFar:
         return self.differs is None and self.compared == self.moves
 
 
-def so_far(timeline: Timeline, varied: Mapping[str, str]) -> SoFar:
-    """The present episode with other settings; `varied`: of planner, sensor, weather or time of day.
+def so_far(timeline: Timeline, varied: Mapping[str, str | float]) -> SoFar:
+    """The present episode with other settings; `varied`: of planner, sensor, weather, time of day, courtesy or noise.
 
     Raises `QuestionError`: `nothing_yet` before the first move, and as `driven_otherwise` does; `ConfigError`
     for values that cannot be.
@@ -95,7 +96,7 @@ def so_far(timeline: Timeline, varied: Mapping[str, str]) -> SoFar:
 
 
 def driven_otherwise(
-    timeline: Timeline, varied: Mapping[str, str], stop: int | None = None
+    timeline: Timeline, varied: Mapping[str, str | float], stop: int | None = None
 ) -> Iterator[StepResult]:
     """Each tick of the present episode with other settings, to its end or to a tick.
 
@@ -109,7 +110,7 @@ def driven_otherwise(
     if len(world.avs) > 1:
         raise QuestionError("several_drive")
     planner = varied.get("planner")
-    if planner is not None:
+    if isinstance(planner, str):
         if planner_named(planner) is None:
             raise QuestionError("no_such_planner", planner=planner)
         start = start.with_ego(planner=None)  # that of the configuration, which is varied

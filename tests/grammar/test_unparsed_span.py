@@ -60,6 +60,7 @@ def test_in_german_too(german: Language, text: str, named: str, first: str) -> N
         ("add five sandwiches", "add five potholes"),
         ("add two cars in the sky and three potholes", "add two cars and three potholes"),
         ("why is the sky blue", "why did you do that"),
+        ("what if nobody had yielded to temptation?", "what if nobody had yielded?"),
     ],
 )
 def test_what_is_left_or_the_like_is_suggested(language: Language, text: str, first: str) -> None:

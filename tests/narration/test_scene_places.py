@@ -42,7 +42,7 @@ def answer(run: SimState, supposes: str, kind: Any = None) -> dict[str, Any]:
         ('number {"lane": 3}', "vehicle", "0: I see no cars in lane 3"),
         ('free {"lane": 9}', None, "There is no lane 9"),
         ('{"distance_m": 5}', "pothole", "Yes, within 5 m"),
-        ("number within 2", "pothole", "1 within 10 m"),
+        ("number within 2", "pothole", "1 in the next 2 rows"),
         ('{"sides": ["ahead", "left"]}', "pothole", "Yes, ahead to the left"),
         ('{"sides": ["ahead", "right"]}', "pothole", "No, I see no potholes"),
         ('what {"side": "left", "cells": 3}', None, "I see in lane 1"),

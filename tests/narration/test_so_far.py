@@ -17,7 +17,7 @@ from tests.sim.explain.test_so_far import SEEDS, VARIED, by_hand, driven, failed
 
 @pytest.mark.parametrize("code", NARRATORS)
 @pytest.mark.parametrize("varied", VARIED, ids=str)
-def test_yes_or_no_is_by_the_moves_or_by_a_crash(code: str, varied: dict[str, str]) -> None:
+def test_yes_or_no_is_by_the_moves_or_by_a_crash(code: str, varied: dict[str, str | float]) -> None:
     yes, no = YES_NO[code]
     change = tuple(Set(parameter=name, value=value) for name, value in varied.items())  # type: ignore[arg-type]
     for seed in SEEDS:

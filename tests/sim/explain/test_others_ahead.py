@@ -100,5 +100,7 @@ def test_rows_are_those_between_the_cells_of_the_first_and_the_last_tick(seed: i
     back = min(4, timeline.tick)
     found = advance(timeline, Query(event=Event.DRIVE, first=timeline.tick - back))
     assert (found.rows, found.ticks) == (row[-1 - back] - row[-1], back)
+    between = advance(timeline, Query(event=Event.DRIVE, first=1, last=timeline.tick - 1))
+    assert (between.rows, between.ticks) == (row[1] - row[-2], timeline.tick - 2)
     with pytest.raises(QuestionError):
         advance(timeline, Query(event=Event.DRIVE, first=timeline.tick + 5))

@@ -22,12 +22,14 @@ from sim.types import Mode, Move, Outcome
 from tests.support.two_egos import drawn
 
 SEEDS = range(14)
-VARIED = (
+VARIED: tuple[dict[str, str | float], ...] = (
     {"planner": "astar"},
     {"sensor": "perfect"},
     {"weather": "clear", "time_of_day": "day"},
     {"sensor": "lidar", "planner": "bfs"},
     {"planner": "priority"},
+    {"courtesy": 0},
+    {"sensor_noise": 0},
 )
 
 
@@ -35,7 +37,9 @@ VARIED = (
 def driven(seed: int, ticks: int = 12) -> Timeline:
     config = Config(columns=5, rows=18, vehicles=14, pedestrians=3, potholes=4, barriers=3, seed=seed)
     sensor = ("radar", "camera", "perfect")[seed % 3]
-    timeline = Timeline(config.with_parts(sensor=sensor, weather="rain", planner="priority"))
+    timeline = Timeline(
+        config.with_parts(sensor=sensor, weather="rain", planner="priority", courtesy=seed % 2 / 2)
+    )
     while timeline.tick < ticks and timeline.state.world.outcome is Outcome.RUNNING:
         timeline.advance()
     return timeline
@@ -59,7 +63,9 @@ def by_hand(seed: int) -> Timeline:
     return timeline
 
 
-def fresh(timeline: Timeline, varied: dict[str, str], end: int | None) -> list[tuple[Move | None, SimState]]:
+def fresh(
+    timeline: Timeline, varied: dict[str, str | float], end: int | None
+) -> list[tuple[Move | None, SimState]]:
     """The moves and states of a session that begins so, to its end or to a tick."""
     state, found = SimState.start(timeline.config.with_parts(**varied)), []
     while state.world.outcome is Outcome.RUNNING and (end is None or state.world.tick < end):
@@ -70,7 +76,7 @@ def fresh(timeline: Timeline, varied: dict[str, str], end: int | None) -> list[t
 
 
 @pytest.mark.parametrize("varied", VARIED, ids=str)
-def test_the_other_drive_is_what_a_session_so_begun_comes_to(varied: dict[str, str]) -> None:
+def test_the_other_drive_is_what_a_session_so_begun_comes_to(varied: dict[str, str | float]) -> None:
     for seed in SEEDS:
         timeline = driven(seed)
         world = timeline.state.world
