@@ -6,7 +6,7 @@ this file and not the reverse. No word of any language is here either.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -193,9 +193,10 @@ def _asks_and_acts(clauses: Sequence[Clause]) -> bool:
 
 
 def _denied_beside_question(clauses: Sequence[Clause]) -> Clause | None:
-    """What is denied in one breath with a question and so belongs to it, "and not left"; or a question itself."""
+    """What is denied in one breath with a question and so belongs to it, "and not left"; or a question."""
     for before, clause in pairwise(clauses):
-        if clause.negated and not clause.actions and asks(clause.filled.frame.actions):
+        said = [action for action in clause.filled.frame.actions if isinstance(action, Mapping)]
+        if clause.negated and not clause.actions and asks(said):
             return clause
         asked = before.actions and all(action["do"] == "ask" for action in before.actions)
         if asked and clause.negated and clause.after != STOP:

@@ -222,7 +222,7 @@ def _drive_supposed(lattice: Lattice, start: int, end: int) -> dict[str, Any] | 
 
 
 def _beside_drive(lattice: Lattice, divided: Divided, start: int, end: int) -> Fragment | None:
-    """A way of driving that is supposed beside a change of the road, as one move of which it could be read."""
+    """A way of driving that is supposed beside a change of the road: it could be read as one move of it."""
     begins = range(start, min(_past_marks(lattice, start, end), end - 1) + 1)
     found = next((edge for at in begins if (edge := _longest(lattice, at, SUPPOSED_DRIVE))), None)
     if found is None or found.sense.value not in get_args(PolicyName):

@@ -53,7 +53,9 @@ class SoFar:
 
 
 def so_far(timeline: Timeline, varied: Mapping[str, str | float]) -> SoFar:
-    """The present episode with other settings; `varied`: of planner, sensor, weather, time of day, courtesy or noise.
+    """The present episode with other settings.
+
+    `varied`: of planner, sensor, weather, time of day, courtesy or noise.
 
     Raises `QuestionError`: `nothing_yet` before the first move, and as `driven_otherwise` does; `ConfigError`
     for values that cannot be.

@@ -105,7 +105,22 @@ def judge(one: Saying, other: Saying, parsed: Parse) -> Verdict:
         return "same"
     if _leans(one, other, got) or _takes_in(wanted, got) or _goes_on(one, other, got):
         return "declared"
+    if _does_all_again(one.actions, other.actions, got):
+        return "declared"
     return "lost" if len(got) < len(wanted) else "changed"
+
+
+def _does_all_again(one: Actions, other: Actions, got: Actions) -> bool:
+    """Whether both are repeated: "head straight, add two potholes and do that twice more"."""
+    for times in range(2, len(got) // (len(one) + 1) + 1):
+        both, left = got[: len(got) // times], len(got) % times
+        again = list(both[len(one) :])
+        added_up = [
+            each | {"count": each["count"] * times} for each in again if isinstance(each.get("count"), int)
+        ]
+        if not left and [*both] * times == [*got] and [*both[: len(one)]] == [*one]:
+            return [*other] in (again * times, added_up)
+    return False
 
 
 def _without_emphasis(one: Actions, other: Actions) -> list[Mapping[str, Any]]:
