@@ -182,8 +182,8 @@ def _read_subordinate(lattice: Lattice, start: int, end: int, divide: Divide) ->
             supposes = _end_supposed(lattice, (first, last), (start, end))
             return Clause(begin, stop, Filled(replace(_FRAME, supposes=supposes), []), [driven])
         divided = divide(first, last, CONDITIONAL)
-        found = divided.failed or _beside_drive(lattice, divided, first, last)
-        found = found or _actions(divided, first, last, NO_CHANGE)
+        beside = divided.failed or _beside_drive(lattice, divided, first, last)
+        found = beside or _actions(divided, first, last, NO_CHANGE)
         if not isinstance(found, Fragment):
             of_road = any(
                 value.get("parameter") in ROAD_SIZE for value in found

@@ -59,8 +59,8 @@ class Proofs:
         together = dict.fromkeys(self._stand_in(cause, moves[cause.group]) for cause in others)
         most = max(1, MOST_TOLD - sum(cause.necessary for cause in causes))
         parts += [Part(3 + at, text) for at, text in enumerate(list(together)[:most])]
-        left = explanation.untried or explanation.verified.sufficient is None
-        hint = Part(LEAST, self._say("go_on") if left and not self._detailed else "")
+        unfinished = bool(explanation.untried) or explanation.verified.sufficient is None
+        hint = Part(LEAST, self._say("go_on") if unfinished and not self._detailed else "")
         return [*parts, Part(1, self._untried()), hint]
 
     def _alone(self, room: int) -> str:

@@ -118,7 +118,7 @@ def driven_otherwise(
         start = start.with_ego(planner=None)  # that of the configuration, which is varied
     prepare(start)
     work = faults = 0
-    searches = traits_of(planner or start.config_of().planner).plans_to_goal
+    searches = traits_of(str(planner or start.config_of().planner)).plans_to_goal
     try:
         for _, tick in drive_again(timeline, start, last, varied):
             work += work_of_tick(start.world.road) if searches else 0

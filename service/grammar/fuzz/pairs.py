@@ -116,7 +116,7 @@ def _does_all_again(one: Actions, other: Actions, got: Actions) -> bool:
         both, left = got[: len(got) // times], len(got) % times
         again = list(both[len(one) :])
         added_up = [
-            each | {"count": each["count"] * times} for each in again if isinstance(each.get("count"), int)
+            {**each, "count": each["count"] * times} for each in again if isinstance(each.get("count"), int)
         ]
         if not left and [*both] * times == [*got] and [*both[: len(one)]] == [*one]:
             return [*other] in (again * times, added_up)

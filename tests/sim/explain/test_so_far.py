@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from random import Random
 
@@ -64,7 +65,7 @@ def by_hand(seed: int) -> Timeline:
 
 
 def fresh(
-    timeline: Timeline, varied: dict[str, str | float], end: int | None
+    timeline: Timeline, varied: Mapping[str, str | float], end: int | None
 ) -> list[tuple[Move | None, SimState]]:
     """The moves and states of a session that begins so, to its end or to a tick."""
     state, found = SimState.start(timeline.config.with_parts(**varied)), []
