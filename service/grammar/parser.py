@@ -193,7 +193,11 @@ def _asks_and_acts(clauses: Sequence[Clause]) -> bool:
 
 
 def _denied_beside_question(clauses: Sequence[Clause]) -> Clause | None:
-    """What is denied in one breath with a question and so belongs to it, "and not left"; or a question."""
+    """What is denied beside something else and cannot be left out.
+
+    That is what belongs to the question before it ("and not left"), and a question that is itself denied
+    ("and what if you had not braked?"): of a request, what is denied just is not done.
+    """
     for before, clause in pairwise(clauses):
         said = [action for action in clause.filled.frame.actions if isinstance(action, Mapping)]
         if clause.negated and not clause.actions and asks(said):

@@ -1,9 +1,9 @@
-"""The present drive up to now, driven again from its start with planner, sensor, weather or light otherwise,
-or without courtesy or noise.
+"""The present drive up to now, driven again from its start with something otherwise.
 
-The seed is the same, and what people said meanwhile is said again at the same ticks, without settings of what
-is varied. A drive that has ended is followed to the end of the other one; of one that goes on, both are
-compared at the same tick.
+That is planner, sensor, weather or light, or that there is no courtesy or no noise. The seed is the same, and
+what people said meanwhile is said again at the same ticks, without settings of what is varied. A
+drive that has ended is followed to the end of the other one; of one that goes on, both are compared at the
+same tick.
 """
 
 from __future__ import annotations

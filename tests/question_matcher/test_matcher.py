@@ -252,6 +252,23 @@ def test_the_vehicle_lends_no_words_to_what_else_is_named(language: Language) ->
     assert question.slots["things"] == "pedestrians"
 
 
+def test_where_a_car_comes_from_is_no_move(language: Language) -> None:
+    words = SlotWords(language, FOLDER)
+    question = words.question("if I had gone forward at tick 11, would the car from the left have hit me?")
+    assert question.slots["gone"] == "gone forward"
+    assert "move" not in question.binding
+    assert words.question("could you have gone left instead?").slots["gone"] == "gone left"
+
+
+def test_a_car_so_many_lanes_away_is_not_the_nearest(language: Language) -> None:
+    words = SlotWords(language, FOLDER)
+    over = words.question("is the car two lanes over going to come across?")
+    assert "elsewhere" in over.binding
+    assert "thing" not in over.slots
+    in_front = words.question("which direction is the car just in front of you moving in?")
+    assert in_front.slots["thing"] == "the car in front"
+
+
 def test_what_a_sentence_names_itself_is_not_left_out(language: Language) -> None:
     words = SlotWords(language, FOLDER)
     kind = QuestionKind("night", (Canonical.of("does darkness affect the lidar?"),)).naming(words.question)
