@@ -50,7 +50,7 @@ _ONE: Final = np.uint64(1)
 
 
 @compiled
-def _take(now, seen, cell, columns):
+def take(now, seen, cell, columns):
     """Begin a roll-out at what is seen."""
     rows_per_word = 64 // columns
     now[:VEHICLE] = seen
@@ -130,6 +130,33 @@ def _every_total(scratch, ticks, rolled, cell, last, weights, episode_tick, limi
 
 
 @compiled
+def made_move(scratch, seen, cell, episode_tick, limit, size, swept, last, weights):
+    """The move that is made where this is seen, and what it costs with the cheapest way on (`FAR`: no way).
+
+    `scratch`, `size`: as in `sim.batch.backward_dp`.
+    """
+    now, layers = scratch[0], scratch[1]
+    columns, left_edge, right_edge = size
+    row = cell // columns
+    least, move, lasted = FAR, np.intp(STAY), 0
+    for stands in (False, True):
+        if stands and not someone_brakes(now, layers, last):
+            break
+        take(now, seen, cell, columns)
+        ticks, rolled, kept_clear = search(
+            now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
+        )
+        if ticks >= 0:
+            totals_of_way(scratch, ticks, rolled, cell, last, weights, episode_tick, limit, size, swept)
+            least, move = cheaper(scratch, stands, least, move)
+        elif least == FAR and not stands:
+            move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
+        elif least == FAR and kept_clear > lasted:
+            move = np.intp(STAY)
+    return move, least
+
+
+@compiled
 def made_moves(
     seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, moves
 ):
@@ -138,37 +165,11 @@ def made_moves(
     Each is weighed by its own row of `weights`.
     """
     scratch = make_scratch(seen.shape[2], rows, columns, max_ticks(rows), weights[:, BUFFER].max(), 1)
-    now, layers = scratch[0], scratch[1]
     size = columns, left_edge, right_edge
-    row = cell // columns
     for number in range(seen.shape[0]):
-        least, move, lasted = FAR, np.intp(STAY), 0
-        for stands in (False, True):
-            if stands and not someone_brakes(now, layers, last):
-                break
-            _take(now, seen[number], cell, columns)
-            ticks, rolled, kept_clear = search(
-                now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
-            )
-            if ticks >= 0:
-                totals_of_way(
-                    scratch,
-                    ticks,
-                    rolled,
-                    cell,
-                    last,
-                    weights[number],
-                    episode_tick,
-                    limit,
-                    size,
-                    swept,
-                )
-                least, move = cheaper(scratch, stands, least, move)
-            elif least == FAR and not stands:
-                move, lasted = longest_survival(now, layers, rolled, last, columns, left_edge, right_edge)
-            elif least == FAR and kept_clear > lasted:
-                move = np.intp(STAY)
-        moves[number] = move
+        moves[number] = made_move(
+            scratch, seen[number], cell, episode_tick, limit, size, swept, last, weights[number]
+        )[0]
 
 
 @compiled
@@ -188,7 +189,7 @@ def decided_totals(
     for stands in (False, True):
         if stands and not someone_brakes(now, layers, last):
             break
-        _take(now, seen, cell, columns)
+        take(now, seen, cell, columns)
         ticks, rolled, kept_clear = search(
             now, layers, row, last, episode_tick, limit, columns, left_edge, right_edge, swept, stands
         )

@@ -5,11 +5,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import lru_cache
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from sim.batch.backward_dp import BUFFER
+from sim.batch.backward_dp import BUFFER, FAR, TICK
+from sim.batch.changed_rows import (
+    BRAKED,
+    FACTS,
+    GOING,
+    LEAST,
+    SPARE_TICKS,
+    STANDING_STILL,
+    decide_base,
+    keep_costs,
+    moves_of_changed,
+)
 from sim.batch.layout import Layout
 from sim.batch.one_decision import decided_totals, made_moves
 from sim.batch.reachability import VEHICLE
@@ -29,6 +41,8 @@ _ALL: Final = np.uint64(2**64 - 1)
 WORD_BITS: Final = 64
 MOST_COLUMNS: Final = WORD_BITS
 """Columns of the widest road that fits into words."""
+WORTH_A_BASE: Final = 4
+"""Ways to see, asked for at once, from which on more of the first one is kept to answer the others."""
 _WALKERS: Final = MARKED.index(Kind.PEDESTRIAN)
 
 
@@ -73,10 +87,10 @@ def totals_of(forecast: Forecast, weights: Weights, limit: int) -> tuple[tuple[i
     """
     percept = forecast.percept
     last = _last_word(percept, weights.buffer)
-    seen = np.frombuffer(bytearray(_Planes(percept, last).words(Unlike())), np.uint64)
+    (seen,) = _Planes(percept, last).seen([Unlike()])
     out = np.empty(6, np.int64)
     place = *_place(percept, limit), last
-    lasting = decided_totals(seen.reshape(VEHICLE, last + 1), *place, np.array(_row(weights), np.int64), out)
+    lasting = decided_totals(seen, *place, np.array(_row(weights), np.int64), out)
     totals = tuple([None if total < 0 else total for total in out.tolist()])
     return totals, None if lasting < 0 else int(lasting)
 
@@ -90,25 +104,120 @@ class MoveKernel:
         self._place = _place(percept, limit)
         self._planes: dict[int, _Planes] = {}
         self._rows: dict[Weights, tuple[int, ...]] = {}
+        self._bases: dict[Weights, _Bases] = {}
 
     def moves(self, unlike: Sequence[Unlike], weights: Sequence[Weights]) -> list[Move]:
         """The move where each of these things is seen otherwise, by the charges beside it; at least one."""
+        charges = weights[0]
+        if all([each == charges for each in weights]):
+            bases = self._bases.get(charges)
+            if bases is None and len(unlike) >= WORTH_A_BASE:
+                row = self._row(charges)
+                last = _last_word(self._percept, row[BUFFER])
+                bases = _Bases(self._planes_to(last), (*self._place, last), row)
+                self._bases[charges] = bases
+            if bases is not None:
+                return bases.moves(unlike)
+        elif len(unlike) >= WORTH_A_BASE:
+            return self._moves_by_charges(unlike, weights)
         rows = [self._row(each) for each in weights]
         last = _last_word(self._percept, max([row[BUFFER] for row in rows]))
-        planes = self._planes.get(last)
-        if planes is None:
-            planes = self._planes[last] = _Planes(self._percept, last)
-        words = bytearray().join([planes.words(each) for each in unlike])
-        seen = np.frombuffer(words, np.uint64).reshape(len(unlike), VEHICLE, last + 1)
+        seen = self._planes_to(last).seen(unlike)
         moves = np.empty(len(unlike), np.uint8)
         made_moves(seen, *self._place, last, np.array(rows, np.int64), moves)
         return [MOVES[move] for move in moves.tolist()]
+
+    def _moves_by_charges(self, unlike: Sequence[Unlike], weights: Sequence[Weights]) -> list[Move]:
+        places: dict[Weights, list[int]] = {}
+        for place, charges in enumerate(weights):
+            places.setdefault(charges, []).append(place)
+        found = {}
+        for charges, at in places.items():
+            moves = self.moves([unlike[place] for place in at], [charges] * len(at))
+            found.update(zip(at, moves, strict=True))
+        return [found[place] for place in range(len(unlike))]
+
+    def _planes_to(self, last: int) -> _Planes:
+        planes = self._planes.get(last)
+        if planes is None:
+            planes = self._planes[last] = _Planes(self._percept, last)
+        return planes
 
     def _row(self, weights: Weights) -> tuple[int, ...]:
         row = self._rows.get(weights)
         if row is None:
             row = self._rows[weights] = _row(weights)
         return row
+
+
+class _Bases:
+    """What is kept of the road as it is seen and of the bare one: the one that is more alike answers."""
+
+    def __init__(self, planes: _Planes, place: tuple[object, ...], row: tuple[int, ...]) -> None:
+        """`place`: as the kernels take it, the last word included; `row`: the charges."""
+        self._planes, self._place, self._charges = planes, place, np.array(row, np.int64)
+        self._kept: dict[Unlike, tuple[object, ...]] = {}
+
+    def moves(self, unlike: Sequence[Unlike]) -> list[Move]:
+        """The move where each of these things is seen otherwise."""
+        bare = self._planes.bare
+        nearly = [bare.is_nearly(each) for each in unlike]
+        moves = np.empty(len(unlike), np.uint8)
+        if not any(nearly):
+            self._write(Unlike(), unlike, moves)
+        elif all(nearly):
+            self._write(bare.unlike, unlike, moves)
+        else:
+            for base, wanted in ((Unlike(), False), (bare.unlike, True)):
+                at = [place for place, each in enumerate(nearly) if each is wanted]
+                some = np.empty(len(at), np.uint8)
+                self._write(base, [unlike[place] for place in at], some)
+                moves[at] = some
+        return [MOVES[move] for move in moves.tolist()]
+
+    def _write(self, base: Unlike, unlike: Sequence[Unlike], moves: NDArray[np.uint8]) -> None:
+        kept = self._kept.get(base)
+        if kept is None:
+            kept = self._kept[base] = self._keep(base)
+        moves_of_changed(self._planes.seen(unlike), *self._place, self._charges, *kept, moves)
+
+    def _keep(self, base: Unlike) -> tuple[object, ...]:
+        (seen,) = self._planes.seen([base])
+        facts = np.zeros((2, FACTS), np.int64)
+        decide_base(seen, *self._place, self._charges, facts)
+        going = self._costs(seen, facts[GOING], stands=False)
+        if not facts[GOING, BRAKED]:
+            return seen, facts, going, going
+        return seen, facts, going, self._costs(seen, facts[STANDING_STILL], stands=True)
+
+    def _costs(self, seen: NDArray[np.uint64], known: NDArray[np.int64], *, stands: bool) -> tuple[object, ...]:
+        """What is kept of a base where there is a way; else nothing."""
+        cell, columns, *_, limit, _, _ = self._place
+        rows = cell // columns + 1 + max(1, int(self._charges[BUFFER]))
+        found = known[LEAST] < FAR
+        ticks = min(int(known[LEAST] // self._charges[TICK]) + SPARE_TICKS, limit) if found else 0
+        kept = (
+            np.empty((2, rows), np.int64),
+            np.empty((2 * rows, ticks, 3), np.uint64),
+            np.empty(2 * rows, np.uint64),
+            np.empty((2 * rows, ticks + 1, columns + 2), np.int32),
+            np.empty((rows, ticks, columns + 2), np.int32),
+        )
+        if found:
+            keep_costs(seen, *self._place, self._charges, kept, stands)
+        return kept
+
+
+class _Bare(NamedTuple):
+    """How the road without anything differs from what is seen."""
+
+    unlike: Unlike
+    things: int
+
+    def is_nearly(self, unlike: Unlike) -> bool:
+        """Whether more than half of all things are gone."""
+        gone = unlike.movers.bit_count() + unlike.fixed.bit_count()
+        return 2 * gone > self.things
 
 
 class _Planes:
@@ -120,7 +229,7 @@ class _Planes:
     def __init__(self, percept: Percept, last: int) -> None:
         """`last`: the last word that matters."""
         columns = percept.road.columns
-        self._bits, self._words = WORD_BITS // columns * columns, range(last + 1)
+        self._bits, self._words_of = WORD_BITS // columns * columns, range(last + 1)
         self._near = (1 << self._bits * (last + 1)) - 1
         plane = WORD_BITS * (last + 1)
         self._fixed_at, self._held_at = 3 * plane, 4 * plane
@@ -136,7 +245,15 @@ class _Planes:
         self._of_movers = sum(board << number * plane for number, board in enumerate(of_movers))
         self._each_plane = sum(1 << number * plane for number in (0, 1, 2, 5, 6))
 
-    def words(self, unlike: Unlike) -> bytes:
+        gone = Unlike(percept.right | percept.left, boards.fixed)
+        self.bare = _Bare(gone, gone.movers.bit_count() + gone.fixed.bit_count())
+
+    def seen(self, unlike: Sequence[Unlike]) -> NDArray[np.uint64]:
+        """What is seen each time (ways to see, 7, words)."""
+        words = bytearray().join([self._words(each) for each in unlike])
+        return np.frombuffer(words, np.uint64).reshape(len(unlike), VEHICLE, len(self._words_of))
+
+    def _words(self, unlike: Unlike) -> bytes:
         """What is seen so: (7, words; uint64)."""
         gone, gone_fixed, barriers, potholes = [self._laid(board) if board else 0 for board in unlike]
         movers, rest = self._movers & ~gone, ~gone_fixed
@@ -152,7 +269,7 @@ class _Planes:
         if self._bits == WORD_BITS:
             return board
         mask = (1 << self._bits) - 1
-        words = [(board >> word * self._bits & mask) << word * WORD_BITS for word in self._words]
+        words = [(board >> word * self._bits & mask) << word * WORD_BITS for word in self._words_of]
         return union(words)
 
 
