@@ -81,6 +81,7 @@ from sim.batch.reachability import (
     search,
     someone_brakes,
 )
+from sim.batch.seen_otherwise import see
 from sim.compilation import compiled
 
 _ZERO: Final = np.uint64(0)
@@ -608,7 +609,9 @@ def _changed_without_a_way(
 
 @compiled
 def moves_of_changed(
-    seen,
+    planes,
+    parts,
+    chosen,
     cell,
     columns,
     rows,
@@ -620,28 +623,34 @@ def moves_of_changed(
     last,
     weights,
     base,
-    facts,
-    going,
-    standing,
+    other_base,
     moves,
 ):
-    """Write the move that is made where each of these is seen (`seen`: ways to see, 7, words).
+    """Write the move that is made after each change (`chosen`: changes, parts of each).
 
-    `base` (7, words; uint64): what is seen of the base; `weights` (7; int64): the charges of all.
+    `planes`, `parts`: as in `sim.batch.seen_otherwise`; `weights` (7; int64): the charges of all. A base is
+    (what is seen; `facts`, 2, 5; what is kept, as `keep_costs` takes it, as movers go on, and as they brake).
     """
-    scratch = make_scratch(seen.shape[2], rows, columns, max_ticks(rows), weights[BUFFER], 1)
-    size, row = (columns, left_edge, right_edge), cell // columns
-    changed, safe = np.empty(row + 1 + max(1, weights[BUFFER]), np.int64), np.empty(last + 1, np.uint64)
-    for number in range(seen.shape[0]):
-        here = seen[number]
-        count = _changed_rows(changed, here, base, columns)
-        if count == 0:
+    scratch = make_scratch(planes.shape[1], rows, columns, max_ticks(rows), weights[BUFFER], 1)
+    seen = np.empty((VEHICLE, planes.shape[1]), np.uint64)
+    size, known = (columns, left_edge, right_edge), cell // columns + 1 + max(1, weights[BUFFER])
+    changed, elsewhere = np.empty(known, np.int64), np.empty(known, np.int64)
+    safe = np.empty(last + 1, np.uint64)
+    for number in range(chosen.shape[0]):
+        see(seen, planes, parts, chosen[number])
+        from_base, alike = base, changed[: _changed_rows(changed, seen, base[0], columns)]
+        if 2 * alike.size > known:
+            others = elsewhere[: _changed_rows(elsewhere, seen, other_base[0], columns)]
+            if others.size < alike.size:
+                from_base, alike = other_base, others
+        _, facts, going, standing = from_base
+        if alike.size == 0:
             moves[number] = facts[STANDING_STILL, MOVE]
             continue
         move = _move_where_changed(
             scratch,
-            here,
-            changed[:count],
+            seen,
+            alike,
             safe,
             cell,
             episode_tick,
@@ -656,6 +665,6 @@ def moves_of_changed(
         )
         if move < 0:
             move = np.int64(
-                made_move(scratch, here, cell, episode_tick, limit, size, swept, last, weights)[0]
+                made_move(scratch, seen, cell, episode_tick, limit, size, swept, last, weights)[0]
             )
         moves[number] = move

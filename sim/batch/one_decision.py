@@ -43,6 +43,7 @@ from sim.batch.reachability import (
     search,
     someone_brakes,
 )
+from sim.batch.seen_otherwise import see
 from sim.compilation import compiled
 
 _ZERO: Final = np.uint64(0)
@@ -158,18 +159,31 @@ def made_move(scratch, seen, cell, episode_tick, limit, size, swept, last, weigh
 
 @compiled
 def made_moves(
-    seen, cell, columns, rows, left_edge, right_edge, episode_tick, limit, swept, last, weights, moves
+    planes,
+    parts,
+    chosen,
+    cell,
+    columns,
+    rows,
+    left_edge,
+    right_edge,
+    episode_tick,
+    limit,
+    swept,
+    last,
+    weights,
+    moves,
 ):
-    """Write the move that is made where each of these is seen (`seen`: ways to see, 7, words).
+    """Write the move that is made after each change (`chosen`: changes, parts of each).
 
-    Each is weighed by its own row of `weights`.
+    `planes`, `parts`: as in `sim.batch.seen_otherwise`.
     """
-    scratch = make_scratch(seen.shape[2], rows, columns, max_ticks(rows), weights[:, BUFFER].max(), 1)
+    scratch = make_scratch(planes.shape[1], rows, columns, max_ticks(rows), weights[BUFFER], 1)
+    seen = np.empty((VEHICLE, planes.shape[1]), np.uint64)
     size = columns, left_edge, right_edge
-    for number in range(seen.shape[0]):
-        moves[number] = made_move(
-            scratch, seen[number], cell, episode_tick, limit, size, swept, last, weights[number]
-        )[0]
+    for number in range(chosen.shape[0]):
+        see(seen, planes, parts, chosen[number])
+        moves[number] = made_move(scratch, seen, cell, episode_tick, limit, size, swept, last, weights)[0]
 
 
 @compiled

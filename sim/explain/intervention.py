@@ -67,6 +67,7 @@ class Intervention:
             self.quick = QuickMoves(state.config_of(self.ego), self.percept, decision)
         self.count = 0
         self._work, self._most = 0, most
+        self._alone: dict[str, Move] = {}
         self._known: dict[tuple[str, frozenset[str]], Move] = {}
 
     def allow(self, work: int) -> None:
@@ -76,22 +77,39 @@ class Intervention:
 
     def tried_without(self, name: str) -> Move | None:
         """The move without this one alone, if that was tried."""
-        return self._known.get(("without", frozenset((name,))))
+        return self._alone.get(name)
 
-    def remember_without(self, name: str, move: Move) -> None:
-        """Remember the move without this one alone, found elsewhere."""
-        self._known[("without", frozenset((name,)))] = move
+    def try_without_each(self, names: Iterable[str]) -> bool:
+        """Take each of these away by itself, all at once; whether that could be done."""
+        left = [name for name in names if name not in self._alone]
+        if self.quick is None:
+            return False
+        try:
+            self.spend(len(left))
+        except WorkSpentError:
+            return False
+        self._alone.update(self.quick.without_each(left))
+        return all(name in self._alone for name in left)
 
     def without(self, names: Iterable[str]) -> Move:
         """The move had these things not been detected, or these wishes never been said."""
-        key = ("without", frozenset(names))
+        gone = frozenset(names)
+        if len(gone) == 1:
+            (name,) = gone
+            if name not in self._alone:
+                self._alone[name] = self._without(gone)
+            return self._alone[name]
+        key = ("without", gone)
         if key not in self._known:
-            otherwise = None if self.quick is None else self.quick.without(key[1])
-            if otherwise is None:
-                self._known[key] = self.decision_without(key[1]).move
-            else:
-                (self._known[key],) = self.made_after([otherwise])
+            self._known[key] = self._without(gone)
         return self._known[key]
+
+    def _without(self, gone: frozenset[str]) -> Move:
+        otherwise = None if self.quick is None else self.quick.without(gone)
+        if otherwise is None:
+            return self.decision_without(gone).move
+        (move,) = self.made_after([otherwise])
+        return move
 
     def keeping(self, names: Iterable[str]) -> Move:
         """The move had nothing but these been detected."""
@@ -173,12 +191,20 @@ class Intervention:
         Raises `WorkSpentError` where there is no work left for all of them.
         """
         assert self.quick is not None
-        work = len(changes) * self.quick.work
+        self.spend(len(changes))
+        return self.quick.moves(changes)
+
+    def spend(self, decisions: int) -> None:
+        """Count so many decisions that are taken at once. Precondition: `quick`.
+
+        Raises `WorkSpentError` where there is no work left for all of them.
+        """
+        assert self.quick is not None
+        work = decisions * self.quick.work
         if self._most is not None and self._work + work > self._most + self.quick.work:
             raise WorkSpentError
         self._work += work
-        self.count += len(changes)
-        return self.quick.moves(changes)
+        self.count += decisions
 
     def counterfactual(self, names: Iterable[str], move: Move) -> Counterfactual:
         """The smallest intervention that removes these names and leads to `move`.

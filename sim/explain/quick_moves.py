@@ -7,7 +7,7 @@ of such a percept, which the tests compare; where that cannot be had, `QuickMove
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from sim.config import Config
 from sim.explain.effort import work_among_many
@@ -23,12 +23,27 @@ from sim.state import SimState
 from sim.types import Move
 from sim.world.grid import union
 
+if TYPE_CHECKING:
+    from sim.batch.move_kernel import Parts
+
 
 class SeenOtherwise(NamedTuple):
     """A change of what is seen, and of the settings."""
 
     unlike: Unlike
     charges: Weights
+
+
+class ChangeParts(NamedTuple):
+    """Parts of changes, as `QuickMoves.parts` prepares them."""
+
+    unlike: Sequence[Unlike]
+    words: Parts | None
+    """None for planners that decide from the next rows alone"""
+
+    def together(self, chosen: Sequence[int]) -> Unlike:
+        """The change that some of them make up."""
+        return Unlike(*(union(boards) for boards in zip(*(self.unlike[part] for part in chosen), strict=True)))
 
 
 class QuickMoves:
@@ -75,24 +90,54 @@ class QuickMoves:
 
     def moves(self, changes: Sequence[SeenOtherwise]) -> list[Move]:
         """The move after each of these changes."""
-        asked = [place for place, change in enumerate(changes) if self._matters(change)]
         found = [self._fact] * len(changes)
-        if asked:
-            unlike = [changes[place].unlike for place in asked]
+        usual: list[int] = []
+        others: dict[Weights, list[int]] = {}
+        for place, change in enumerate(changes):
+            if change.charges is not self._charges:
+                others.setdefault(change.charges, []).append(place)
+            elif self._matters(change.unlike):
+                usual.append(place)
+        if usual:
+            others[self._charges] = [*others.get(self._charges, ()), *usual]
+        for charges, places in others.items():
+            unlike = [changes[place].unlike for place in places]
             if self._ranked:
                 moves = compiled_moves_by_rank(self._percept, self._ranked, unlike)
             else:
-                charges = [changes[place].charges for place in asked]
                 moves = self._kernel.moves(unlike, charges)
-            for place, move in zip(asked, moves, strict=True):
+            for place, move in zip(places, moves, strict=True):
                 found[place] = move
         return found
 
-    def _matters(self, change: SeenOtherwise) -> bool:
+    def parts(self, unlike: Sequence[Unlike]) -> ChangeParts:
+        """Changes of which others are made up (`moves_of`)."""
+        return ChangeParts(unlike, None if self._ranked else self._kernel.parts(unlike))
+
+    def moves_of(
+        self, parts: ChangeParts, chosen: Sequence[Sequence[int]], charges: Weights
+    ) -> list[Move]:
+        """The move after each change, by the numbers of its parts (of all changes as many)."""
+        if parts.words is not None:
+            return self._kernel.moves_of(parts.words, chosen, charges)
+        return self.moves([SeenOtherwise(parts.together(each), charges) for each in chosen])
+
+    def without_each(self, names: Sequence[str]) -> dict[str, Move]:
+        """The move without each of these alone, of those that are known here."""
+        known = [name for name in names if name in self._movers or name in self._fixed or is_factor(name)]
+        changes = [
+            SeenOtherwise(
+                Unlike(self._movers.get(name, 0), self._fixed.get(name, 0)),
+                self.charges_without((name,)) if is_factor(name) else self._charges,
+            )
+            for name in known
+        ]
+        return dict(zip(known, self.moves(changes), strict=True))
+
+    def _matters(self, unlike: Unlike) -> bool:
         """Whether anything is otherwise where it can have a part."""
-        movers, fixed, barriers, potholes = change.unlike
-        seen = (movers | fixed | barriers | potholes) & self._near
-        return bool(seen) or change.charges is not self._charges
+        movers, fixed, barriers, potholes = unlike
+        return bool((movers | fixed | barriers | potholes) & self._near)
 
     def without(self, names: Collection[str]) -> SeenOtherwise | None:
         """What is seen without these; None where one of them is not known."""

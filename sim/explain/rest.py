@@ -56,7 +56,7 @@ class Rest:
         parts = having_part(rerun.percept, traits, list(names))
         most = tried_singly(traits)
         further = Flipping(rerun)
-        each = len(parts) if tried_each_together(rerun, parts) else most
+        each = len(parts) if rerun.try_without_each(parts) else most
         single = {name for name in parts[:each] if further.flips(name)}
         single.update(further.among([name for name in parts[each:] if rerun.tried_without(name) is None]))
         single.update(name for name in parts if rerun.tried_without(name) not in (None, fact))
@@ -77,21 +77,6 @@ class Rest:
                 elif name not in groups and (link := _behind(rerun, name, option, by)) is not None:
                     chain.append(link)
         return Rest(groups, tuple(chain), tuple(further.untried))
-
-
-def tried_each_together(rerun: Intervention, names: Sequence[str]) -> bool:
-    """Take each of these away by itself, all at once; whether that could be done."""
-    if rerun.quick is None:
-        return False
-    otherwise = {name: rerun.quick.without((name,)) for name in names if rerun.tried_without(name) is None}
-    known = {name: each for name, each in otherwise.items() if each is not None}
-    try:
-        moves = rerun.made_after([*known.values()])
-    except WorkSpentError:
-        return False
-    for name, move in zip(known, moves, strict=True):
-        rerun.remember_without(name, move)
-    return len(known) == len(otherwise)
 
 
 class Flipping:

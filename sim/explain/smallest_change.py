@@ -60,8 +60,11 @@ class ChangeSearch:
         traits = traits_of(rerun.decision.planner)
         self._most = effort.of(MOST_TRIES)
         self._edits = list(self._single_edits(having_part(rerun.percept, traits, list(names))))
-        self._known: dict[frozenset[Edit], Move | None] = {}
-        self._together = None if rerun.quick is None else TogetherTried(rerun, rerun.quick)
+        self._numbers = {edit: number for number, edit in enumerate(self._edits)}
+        self._known: dict[tuple[int, ...], Move | None] = {}
+        self._together: TogetherTried | None = None
+        if rerun.quick is not None:
+            self._together = TogetherTried(rerun, rerun.quick, self._edits)
 
     @property
     def tried(self) -> int:
@@ -75,7 +78,7 @@ class ChangeSearch:
     def made(self, edits: Iterable[Edit]) -> Move | None:
         """The move after these edits; None where they cannot be made."""
         edits = tuple(edits)
-        key = frozenset(edits)
+        key = tuple(sorted({self._numbers.setdefault(edit, len(self._numbers)) for edit in edits}))
         if key not in self._known:
             self._known[key] = self._made(edits)
         return self._known[key]
@@ -134,19 +137,29 @@ class ChangeSearch:
         return self._cut_down(fallback, searched)
 
     def _of_size(self, size: int) -> Iterator[Edits | None]:
-        """The changes of so many edits, the most telling first; None where no more may be tried."""
-        changes = combinations(self._edits, size)
+        """The changes of so many edits that may reach the move, the most telling first.
+
+        None where no more may be tried.
+        """
+        changes = combinations(range(len(self._edits)), size)
         if self._together is None:
-            for edits in changes:
-                yield edits if self.tried < self._most else None
+            for change in changes:
+                yield self._edits_of(change) if self.tried < self._most else None
             return
         most = FIRST_TOGETHER
         while some := list(islice(changes, most)):
             made = self._together.made(some)
-            self._known.update(made)
-            if len(made) < len(some) or self._foil in made.values():
-                yield from some
+            self._known.update(
+                (change, move) for change, move in zip(some, made, strict=True) if move is not None
+            )
+            if None in made or self._foil in made:
+                for change, move in zip(some, made, strict=True):
+                    if move is None or move is self._foil:
+                        yield self._edits_of(change)
             most = min(MOST_TOGETHER, 2 * most)
+
+    def _edits_of(self, change: Iterable[int]) -> Edits:
+        return tuple(self._edits[number] for number in change)
 
     def _cut_down(self, fallback: Iterator[Edits], searched: int) -> SmallestChange:
         """A part of a larger change, of which nothing can be spared."""

@@ -7,13 +7,13 @@ left out, and one that is found is done by its actions before it is told.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from sim.actions import Add, Prefer, Preference, WorldAction
-from sim.explain.edit import Edit, Edits
+from sim.explain.edit import Edit
 from sim.explain.factors import without
 from sim.explain.intervention import Intervention
-from sim.explain.quick_moves import QuickMoves, SeenOtherwise
+from sim.explain.quick_moves import QuickMoves
 from sim.search.compiled_costs import Unlike
 from sim.search.costs import Weights, weights_of
 from sim.session.settings import preferences_with
@@ -21,45 +21,40 @@ from sim.types import Move
 
 
 class TogetherTried:
-    """Tries changes of one decision, many at once."""
+    """Tries changes of one decision, many at once; they are said by the numbers of their edits."""
 
-    def __init__(self, rerun: Intervention, quick: QuickMoves) -> None:
+    def __init__(self, rerun: Intervention, quick: QuickMoves, edits: Sequence[Edit]) -> None:
         """`rerun`: the decision; `quick`: its `Intervention.quick`."""
         self._rerun = rerun
         self._quick = quick
-        self._unlike: dict[Edit, Unlike] = {}
-        self._usual = quick.charges_without(())
+        self._edits = edits
+        said = [Unlike() if edit.of_wishes else self._of_edit(edit) for edit in edits]
+        self._unsaid = frozenset(number for number, unlike in enumerate(said) if unlike is None)
+        self._wishes = frozenset(number for number, edit in enumerate(edits) if edit.of_wishes)
+        self._parts = quick.parts([Unlike() if unlike is None else unlike for unlike in said])
+        self._charges: dict[tuple[int, ...], Weights] = {(): quick.charges_without(())}
 
-    def made(self, changes: Iterable[Edits]) -> dict[frozenset[Edit], Move]:
-        """The move after each of these changes, of those that can be said so.
+    def made(self, changes: Sequence[tuple[int, ...]]) -> list[Move | None]:
+        """The move after each of these changes, all of as many edits; None of those that cannot be said so.
 
         Raises `WorkSpentError` where not all of them may be tried any more.
         """
-        said = [(frozenset(edits), self._said(edits)) for edits in changes]
-        known = [(key, otherwise) for key, otherwise in said if otherwise is not None]
-        moves = self._rerun.made_after([otherwise for _, otherwise in known])
-        return dict(zip((key for key, _ in known), moves, strict=True))
-
-    def _said(self, edits: Edits) -> SeenOtherwise | None:
-        movers = fixed = barriers = potholes = 0
-        wishes = []
-        for edit in edits:
-            if edit.of_wishes:
-                wishes.append(edit)
-                continue
-            unlike = self._unlike.get(edit)
-            if unlike is None:
-                unlike = self._of_edit(edit)
-                if unlike is None:
-                    return None
-                self._unlike[edit] = unlike
-            gone, gone_fixed, barred, holed = unlike
-            movers |= gone
-            fixed |= gone_fixed
-            barriers |= barred
-            potholes |= holed
-        charges = self._with_wishes(wishes) if wishes else self._usual
-        return SeenOtherwise(Unlike(movers, fixed, barriers, potholes), charges)
+        by_wishes: dict[tuple[int, ...], list[int]] = {}
+        for place, change in enumerate(changes):
+            if self._unsaid.isdisjoint(change):
+                wishes = self._wishes.intersection(change)
+                key = tuple(number for number in change if number in wishes) if wishes else ()
+                by_wishes.setdefault(key, []).append(place)
+        self._rerun.spend(sum(map(len, by_wishes.values())))
+        found: list[Move | None] = [None] * len(changes)
+        for key, places in by_wishes.items():
+            charges = self._charges.get(key)
+            if charges is None:
+                charges = self._charges[key] = self._with_wishes([self._edits[number] for number in key])
+            moves = self._quick.moves_of(self._parts, [changes[place] for place in places], charges)
+            for place, move in zip(places, moves, strict=True):
+                found[place] = move
+        return found
 
     def _of_edit(self, edit: Edit) -> Unlike | None:
         if edit.gone:

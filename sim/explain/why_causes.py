@@ -26,7 +26,7 @@ from sim.explain.effort import FOR_CAUSES, RESERVE, Effort, WorkSpentError
 from sim.explain.factors import is_factor
 from sim.explain.facts import Cause, Counterfactual, Explanation, Role, Verified
 from sim.explain.intervention import Intervention, wall
-from sim.explain.rest import Rest, tried_each_together
+from sim.explain.rest import Rest
 from sim.oracle.ddmin import ddmin
 from sim.perceive import Percept
 from sim.plan import Decision, Option, traits_of
@@ -60,7 +60,7 @@ def explain_why(
         hindered = [option for option in decision.options if option.move is decision.asked]
     else:
         hindered = list(decision.preferred)
-    tried_each_together(rerun, names)
+    rerun.try_without_each(names)
     groups, verified = _sufficient(rerun, fact, names)
     rerun.allow(effort.of(RESERVE))
     rest = Rest.of(rerun, names, _with_straight_on(decision, hindered), groups)

@@ -20,7 +20,7 @@ from sim.types import MOVES, Move
 from sim.world.grid import Board
 
 if TYPE_CHECKING:
-    from sim.batch.percept_words import MoveKernel
+    from sim.batch.move_kernel import MoveKernel
 
 COMPILED: Final = "one_decision"
 """Under which it is kept that they were compiled (`sim.compiled_files`)."""
@@ -62,7 +62,8 @@ def load_compiled_costs(*, compile_now: bool = False) -> bool:
     if _found is None:
         if not (compile_now or are_compiled()):
             return False
-        from sim.batch.percept_words import make_ready, totals_where_compiled
+        from sim.batch.move_kernel import make_ready
+        from sim.batch.percept_words import totals_where_compiled
 
         make_ready()
         _found = totals_where_compiled
@@ -111,7 +112,7 @@ def move_kernel(percept: Percept, limit: int) -> MoveKernel:
 
     Precondition: `are_loaded`, and `compiled_costs` answers for what is seen.
     """
-    from sim.batch.percept_words import MoveKernel
+    from sim.batch.move_kernel import MoveKernel
 
     return MoveKernel(percept, limit)
 
