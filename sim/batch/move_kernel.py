@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.batch.backward_dp import BUFFER, FAR, TICK
-from sim.batch.changed_rows import (
+from sim.batch.changed_rows import moves_of_changed
+from sim.batch.kept_base import (
     BRAKED,
     FACTS,
     GOING,
@@ -23,10 +24,9 @@ from sim.batch.changed_rows import (
     STANDING_STILL,
     decide_base,
     keep_costs,
-    moves_of_changed,
 )
 from sim.batch.one_decision import decided_totals, made_moves
-from sim.batch.percept_words import PerceptWords, charges_of, last_word, place_of
+from sim.batch.percept_words import PerceptWords, Place, charges_of, last_word, place_of
 from sim.batch.reachability import VEHICLE
 from sim.batch.row_words import make_ready as make_rows_ready
 from sim.batch.seen_otherwise import NOTHING, SEEN_AS_IT_IS, see
@@ -44,13 +44,13 @@ def make_ready() -> None:
     """Compile this, or load what was compiled before."""
     planes = np.frombuffer(bytes(7 * 8), np.uint64).reshape(7, 1)
     charges = charges_of(Weights(60, 12, 9, 4, 2, 24, 1, 0))
-    place = (1, 1, 2, np.uint64(1), np.uint64(1), 0, 2, np.uint64(2**64 - 1), 0)
+    place = Place(1, 1, 2, np.uint64(1), np.uint64(1), 0, 2, np.uint64(2**64 - 1))
     parts, chosen = np.zeros((1, 4, 1), np.uint64), np.zeros((1, 1), np.int64)
     moves = np.empty(1, np.uint8)
-    made_moves(planes, parts, chosen, *place, charges, moves)
+    made_moves(planes, parts, chosen, *place, 0, charges, moves)
     _Bases(planes, parts, place, charges).write(parts, chosen, moves, nearly_empty=True)
     seen = np.zeros((VEHICLE, 1), np.uint64)
-    decided_totals(seen, *place, charges, np.empty(6, np.int64))
+    decided_totals(seen, *place, 0, charges, np.empty(6, np.int64))
     make_rows_ready()
     mark = ready_mark(COMPILED)
     if mark is not None:
@@ -90,7 +90,7 @@ class MoveKernel:
         """The move where each of these things is seen otherwise; at least one."""
         bare = self._percept.right | self._percept.left, self._percept.boards.fixed
         most = (bare[0].bit_count() + bare[1].bit_count()) // 2
-        empty = any([each.movers.bit_count() + each.fixed.bit_count() > most for each in unlike])
+        empty = any(each.movers.bit_count() + each.fixed.bit_count() > most for each in unlike)
         return self._made(Parts(unlike), np.arange(len(unlike))[:, None], weights, nearly_empty=empty)
 
     @staticmethod
@@ -115,7 +115,7 @@ class MoveKernel:
         bases = self._bases.get(weights)
         if bases is None and len(chosen) >= WORTH_A_BASE:
             bare = seen.parts([seen.bare])
-            bases = self._bases[weights] = _Bases(seen.planes, bare, (*self._place, last), charges)
+            bases = self._bases[weights] = _Bases(seen.planes, bare, self._place, charges)
         if bases is None:
             made_moves(seen.planes, parts.words(seen), chosen, *self._place, last, charges, moves)
         else:
@@ -130,14 +130,12 @@ class _Bases:
         self,
         planes: NDArray[np.uint64],
         bare: NDArray[np.uint64],
-        place: tuple[object, ...],
+        place: Place,
         charges: NDArray[np.int64],
     ) -> None:
-        """`planes`: as of `PerceptWords`; `bare`: the part that takes all away.
-
-        `place`: as the kernels take it, with the last word.
-        """
+        """`planes`: as of `PerceptWords`; `bare`: the part that takes all away."""
         self._planes, self._without_all, self._place, self._charges = planes, bare, place, charges
+        self._where = *place, planes.shape[1] - 1
         self._as_seen = self._keep(NOTHING, SEEN_AS_IT_IS)
         self._bare: tuple[object, ...] | None = None
 
@@ -154,7 +152,7 @@ class _Bases:
             self._bare = self._keep(self._without_all, np.zeros(1, np.int64))
         other = self._bare or self._as_seen
         moves_of_changed(
-            self._planes, parts, chosen, *self._place, self._charges, self._as_seen, other, moves
+            self._planes, parts, chosen, *self._where, self._charges, self._as_seen, other, moves
         )
 
     def _keep(self, parts: NDArray[np.uint64], chosen: NDArray[np.int64]) -> tuple[object, ...]:
@@ -162,7 +160,7 @@ class _Bases:
         seen = np.empty((VEHICLE, self._planes.shape[1]), np.uint64)
         see(seen, self._planes, parts, chosen)
         facts = np.zeros((2, FACTS), np.int64)
-        decide_base(seen, *self._place, self._charges, facts)
+        decide_base(seen, *self._where, self._charges, facts)
         going = self._costs(seen, facts[GOING], stands=False)
         if not facts[GOING, BRAKED]:
             return seen, facts, going, going
@@ -172,10 +170,10 @@ class _Bases:
         self, seen: NDArray[np.uint64], known: NDArray[np.int64], *, stands: bool
     ) -> tuple[object, ...]:
         """What is kept of a base where there is a way; else nothing."""
-        cell, columns, *_, limit, _, _ = self._place
-        rows = cell // columns + 1 + max(1, int(self._charges[BUFFER]))
+        place, columns = self._place, self._place.columns
+        rows = place.cell // columns + 1 + max(1, int(self._charges[BUFFER]))
         found = known[LEAST] < FAR
-        ticks = min(int(known[LEAST] // self._charges[TICK]) + SPARE_TICKS, limit) if found else 0
+        ticks = min(int(known[LEAST] // self._charges[TICK]) + SPARE_TICKS, place.limit) if found else 0
         kept = (
             np.empty((2, rows), np.int64),
             np.empty((2 * rows, ticks, 3), np.uint64),
@@ -184,5 +182,7 @@ class _Bases:
             np.empty((rows, ticks, columns + 2), np.int32),
         )
         if found:
-            keep_costs(seen, *self._place, self._charges, kept, stands)
+            edges, last = (place.left_edge, place.right_edge), self._planes.shape[1] - 1
+            where = place.cell, columns, place.rows, *edges, place.episode_tick, place.swept, last
+            keep_costs(seen, *where, self._charges, kept, stands)
         return kept

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,20 +124,27 @@ def _edges(columns: int, rows: int) -> tuple[np.uint64, np.uint64]:
     return np.uint64(layout.left_edge), np.uint64(layout.right_edge)
 
 
-def place_of(percept: Percept, limit: int) -> tuple[object, ...]:
+class Place(NamedTuple):
     """Where and when it is decided, as the kernels want it."""
+
+    cell: int
+    columns: int
+    rows: int
+    left_edge: np.uint64
+    right_edge: np.uint64
+    episode_tick: int
+    limit: int
+    """steps that are left, in ticks"""
+    swept: np.uint64
+    """all ones where bodies collide by what they sweep, else 0"""
+
+
+def place_of(percept: Percept, limit: int) -> Place:
+    """Where and when it is decided; `limit`: steps that are left, in ticks."""
     road = percept.road
-    left_edge, right_edge = _edges(road.columns, road.rows)
-    return (
-        percept.ego,
-        road.columns,
-        road.rows,
-        left_edge,
-        right_edge,
-        percept.episode_tick,
-        limit,
-        _ALL if percept.swept else np.uint64(0),
-    )
+    edges = _edges(road.columns, road.rows)
+    swept = _ALL if percept.swept else np.uint64(0)
+    return Place(percept.ego, road.columns, road.rows, *edges, percept.episode_tick, limit, swept)
 
 
 @lru_cache(maxsize=64)

@@ -23,7 +23,6 @@ from sim.batch.reachability import (
     NOW_RIGHT,
     NOW_WALKERS,
     RESTING_IN_HOLES,
-    VEHICLE,
     YIELDS,
 )
 from sim.compilation import compiled

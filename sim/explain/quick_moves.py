@@ -43,7 +43,9 @@ class ChangeParts(NamedTuple):
 
     def together(self, chosen: Sequence[int]) -> Unlike:
         """The change that some of them make up."""
-        return Unlike(*(union(boards) for boards in zip(*(self.unlike[part] for part in chosen), strict=True)))
+        return Unlike(
+            *(union(boards) for boards in zip(*(self.unlike[part] for part in chosen), strict=True))
+        )
 
 
 class QuickMoves:
@@ -114,9 +116,7 @@ class QuickMoves:
         """Changes of which others are made up (`moves_of`)."""
         return ChangeParts(unlike, None if self._ranked else self._kernel.parts(unlike))
 
-    def moves_of(
-        self, parts: ChangeParts, chosen: Sequence[Sequence[int]], charges: Weights
-    ) -> list[Move]:
+    def moves_of(self, parts: ChangeParts, chosen: Sequence[Sequence[int]], charges: Weights) -> list[Move]:
         """The move after each change, by the numbers of its parts (of all changes as many)."""
         if parts.words is not None:
             return self._kernel.moves_of(parts.words, chosen, charges)

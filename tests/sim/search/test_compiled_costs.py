@@ -12,6 +12,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from sim.actions import Preference
+from sim.batch.move_kernel import WORTH_A_BASE
 from sim.batch.percept_words import is_compiled_for
 from sim.config import Collision, Config
 from sim.decide import decide, decide_on, sense
@@ -27,7 +28,7 @@ from sim.session.timeline import Timeline
 from sim.state import SimState
 from sim.types import MOVES, Kind, Move, Outcome
 from sim.world import World
-from sim.world.grid import board_of
+from sim.world.grid import board_of, union
 from tests.support.roads import road, run_on, worlds
 from tests.support.slow_search import totals
 from tests.support.twin import position
@@ -125,7 +126,7 @@ def test_moves_after_changes_are_those_of_the_planner(
         )
         for some in gone
     ]
-    found = compiled.move_kernel(percept, limit).moves(unlike, [charges] * len(unlike))
+    found = compiled.move_kernel(percept, limit).moves(unlike, charges)
     compiled.forget_compiled_costs()
     assert found == [decide_on(state, percept.without(some)).move for some in gone]
     compiled.load_compiled_costs()
@@ -138,10 +139,73 @@ def test_barriers_and_potholes_may_be_added() -> None:
     ahead = board_of([11, 12, 13])
     added = (compiled.Unlike(barriers=ahead), Kind.BARRIER), (compiled.Unlike(potholes=ahead), Kind.POTHOLE)
     for unlike, kind in added:
-        found = compiled.move_kernel(percept, limit).moves([compiled.Unlike(), unlike], [charges, charges])
+        found = compiled.move_kernel(percept, limit).moves([compiled.Unlike(), unlike], charges)
         boards = percept.boards.with_kind(kind, ahead)
         seen = replace(percept, boards=boards, hazards={11: "a", 12: "b", 13: "c"})
         assert found == [Move.FORWARD, decide_on(state, seen).move]
+
+
+@settings(max_examples=60)
+@given(
+    st.integers(0, 2**32 - 1),
+    st.sampled_from([0, 12, 30]),
+    st.sampled_from([0, 10, 40]),
+    st.sampled_from([3, 8, 11]),
+    PREFERENCES,
+    REACTIONS,
+)
+def test_what_is_kept_of_a_road_answers_as_a_decision_of_its_own(
+    seed: int,
+    vehicles: int,
+    hazards: int,
+    columns: int,
+    wishes: list[Preference],
+    reactions: dict[str, object],
+) -> None:
+    config = Config(
+        seed=seed,
+        columns=columns,
+        rows=20,
+        potholes=hazards * columns // 8,
+        barriers=hazards * columns // 16,
+        vehicles=vehicles * columns // 8,
+        pedestrians=vehicles // 6,
+        preferences=tuple(wishes),
+        planner="astar",
+    ).with_parts(**reactions)
+    draw, timeline = random.Random(seed), Timeline(config)
+    for _ in range(draw.randrange(12)):
+        timeline.advance()
+    state = timeline.state
+    percept, charges = sense(state)[0], weights(config)
+    limit = steps_left(config, percept.episode_tick)
+    if state.world.outcome is not Outcome.RUNNING or limit < 2:
+        return
+    taken = {percept.ego, *percept.movers, *percept.hazards}
+    free = [cell for cell in range(percept.ego + columns) if cell not in taken]
+    things = [compiled.Unlike(movers=1 << cell) for cell in percept.movers]
+    things += [compiled.Unlike(fixed=1 << cell) for cell in percept.hazards]
+    added = [compiled.Unlike(barriers=1 << cell) for cell in draw.sample(free, min(15, len(free)))]
+    added += [compiled.Unlike(potholes=1 << cell) for cell in percept.movers]
+    parts = [*things, *added]
+    if len(parts) < WORTH_A_BASE:
+        return
+    numbers = range(len(parts))
+    several = [tuple(draw.sample(numbers, 3)) for _ in range(30)]
+    kept, anew = compiled.move_kernel(percept, limit), compiled.move_kernel(percept, limit)
+    for chosen in ([(number,) for number in numbers], several):
+        found = kept.moves_of(kept.parts(parts), chosen, charges)
+        for numbers_of, move in zip(chosen, found, strict=True):
+            assert [move] == anew.moves_of(anew.parts(parts), [numbers_of], charges), numbers_of
+    left = [draw.sample(things, min(4, len(things))) for _ in range(10)]
+    rest = [
+        compiled.Unlike(
+            board_of(percept.movers) & ~union(each.movers for each in some),
+            board_of(percept.hazards) & ~union(each.fixed for each in some),
+        )
+        for some in left
+    ]
+    assert kept.moves(rest, charges) == [anew.moves([each], charges)[0] for each in rest]
 
 
 @settings(max_examples=25)
