@@ -39,11 +39,11 @@ _ZERO: Final = np.uint64(0)
 _ONE: Final = np.uint64(1)
 
 GOING, STANDING_STILL = range(2)
-"""Rows of the facts. Where a mover brakes for a vehicle that stays, staying is decided by itself: the first row
-is of all moves, by movers that do not brake, the second one of staying, by movers that do."""
+"""Rows of the facts. Where a mover brakes for a vehicle that stays, staying is decided by itself: the first
+row is of all moves, by movers that do not brake, the second one of staying, by movers that do."""
 LEAST, MOVE, REACHED_ROW, SHUT_ROW, BRAKED = range(5)
-"""Columns of the facts: the least cost to the destination (`FAR`: no way); the move, in the second row that of
-the whole decision; where there is no way, the foremost row that the vehicle gets to, and the foremost one
+"""Columns of the facts: the least cost to the destination (`FAR`: no way); the move, in the second row that
+of the whole decision; where there is no way, the foremost row that the vehicle gets to, and the foremost one
 from which nothing leads to the destination; and in the first row, whether a mover brakes."""
 FACTS: Final = 5
 SPARE_TICKS: Final = 3

@@ -1,8 +1,8 @@
 """Cost to the destination row by row, in compiled words: what one row costs, given the row before it.
 
-Movers keep to their rows, so each row is rolled out by itself. The costs of a row depend on its own movers, on
-those of the rows next to it, and on the costs of the row before it (nearer to the destination). Charges and
-steps are those of `sim.batch.backward_dp`, which sweeps tick by tick.
+Movers keep to their rows, so each row is rolled out by itself. What a row costs hangs on its own movers,
+on those of the rows next to it, and on the costs of the row before it (nearer to the destination). Charges
+and steps are those of `sim.batch.backward_dp`, which sweeps tick by tick.
 
 Array arguments, besides those of `sim.batch.one_decision` (*known* rows: those up to the vehicle's, and as
 many behind it as movers are kept clear of; *slots*: twice as many, of which the first half holds a base and

@@ -56,7 +56,7 @@ _found: _Found | None = None
 def load_compiled_costs(*, compile_now: bool = False) -> bool:
     """Load the compiled costs, unless they would have to be compiled first; whether they are there now.
 
-    Compiling takes some ten seconds, once for each version; `compile_now` does it where it is needed.
+    Compiling takes a minute or two, once for each version; `compile_now` does it where it is needed.
     """
     global _found
     if _found is None:
