@@ -6,8 +6,9 @@ Of the road as it is seen and of the bare one it is kept what an answer about a 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from itertools import islice
 from typing import Final
 
 import numpy as np
@@ -25,15 +26,17 @@ from sim.batch.kept_base import (
     decide_base,
     keep_costs,
 )
-from sim.batch.one_decision import decided_totals, made_moves
-from sim.batch.percept_words import PerceptWords, Place, charges_of, last_word, place_of
+from sim.batch.one_decision import made_moves
+from sim.batch.percept_words import PerceptWords, Place, charges_of, last_word, place_of, totals_of
 from sim.batch.reachability import VEHICLE
 from sim.batch.row_words import make_ready as make_rows_ready
 from sim.batch.seen_otherwise import NOTHING, SEEN_AS_IT_IS, see
 from sim.compiled_files import ready_mark
-from sim.perceive import Percept
+from sim.config import Config
+from sim.perceive import Percept, perceive_truth
 from sim.search.compiled_costs import COMPILED, Unlike
-from sim.search.costs import Weights
+from sim.search.costs import Weights, weights
+from sim.state import SimState
 from sim.types import MOVES, Move
 
 WORTH_A_BASE: Final = 4
@@ -42,15 +45,13 @@ WORTH_A_BASE: Final = 4
 
 def make_ready() -> None:
     """Compile this, or load what was compiled before."""
-    planes = np.frombuffer(bytes(7 * 8), np.uint64).reshape(7, 1)
-    charges = charges_of(Weights(60, 12, 9, 4, 2, 24, 1, 0))
-    place = Place(1, 1, 2, np.uint64(1), np.uint64(1), 0, 2, np.uint64(2**64 - 1))
-    parts, chosen = np.zeros((1, 4, 1), np.uint64), np.zeros((1, 1), np.int64)
-    moves = np.empty(1, np.uint8)
-    made_moves(planes, parts, chosen, *place, 0, charges, moves)
-    _Bases(planes, parts, place, charges).write(parts, chosen, moves, nearly_empty=True)
-    seen = np.zeros((VEHICLE, 1), np.uint64)
-    decided_totals(seen, *place, 0, charges, np.empty(6, np.int64))
+    state = SimState.start(Config(rows=5, columns=4, vehicles=0, potholes=0))
+    limit, charges = state.config.max_ticks, weights(state.config)
+    percept = perceive_truth(state.world, state.config)
+    totals_of(percept, charges, limit)
+    kernel = MoveKernel(percept, limit)
+    for changes in (1, WORTH_A_BASE):
+        kernel.moves([Unlike()] * changes, charges)
     make_rows_ready()
     mark = ready_mark(COMPILED)
     if mark is not None:
@@ -86,79 +87,89 @@ class MoveKernel:
         self._words: dict[int, PerceptWords] = {}
         self._bases: dict[Weights, _Bases] = {}
 
-    def moves(self, unlike: Sequence[Unlike], weights: Weights) -> list[Move]:
+    def moves(self, unlike: Sequence[Unlike], charges: Weights) -> list[Move]:
         """The move where each of these things is seen otherwise; at least one."""
         bare = self._percept.right | self._percept.left, self._percept.boards.fixed
         most = (bare[0].bit_count() + bare[1].bit_count()) // 2
-        empty = any(each.movers.bit_count() + each.fixed.bit_count() > most for each in unlike)
-        return self._made(Parts(unlike), np.arange(len(unlike))[:, None], weights, nearly_empty=empty)
+        nearly_empty = any(each.movers.bit_count() + each.fixed.bit_count() > most for each in unlike)
+        parts, chosen = Parts(unlike), np.arange(len(unlike))[:, None]
+        bases = self._bases_of(charges, len(unlike))
+        if bases is None:
+            return self._made(parts, chosen, [charges] * len(unlike))
+        return bases.moves(parts, chosen, nearly_empty=nearly_empty)
 
     @staticmethod
     def parts(unlike: Sequence[Unlike]) -> Parts:
         """Changes of which others are made up."""
         return Parts(unlike)
 
-    def moves_of(self, parts: Parts, chosen: Sequence[Sequence[int]], weights: Weights) -> list[Move]:
-        """The move after each change, by the numbers of its parts (of all changes as many); at least one."""
-        return self._made(parts, np.array(chosen, np.int64), weights, nearly_empty=False)
+    def moves_of(
+        self, parts: Parts, changes: Mapping[Weights, Sequence[Sequence[int]]]
+    ) -> dict[Weights, list[Move]]:
+        """The moves after changes, by the charges they leave; at least one of each.
 
-    def _made(
-        self, parts: Parts, chosen: NDArray[np.int64], weights: Weights, *, nearly_empty: bool
-    ) -> list[Move]:
-        """`nearly_empty`: whether some of the roads are more like the bare one."""
-        charges = charges_of(weights)
-        last = last_word(self._percept, weights.buffer)
+        A change is said by the numbers of its parts, all of as many.
+        """
+        found: dict[Weights, list[Move]] = {}
+        few: dict[Weights, Sequence[Sequence[int]]] = {}
+        for charges, chosen in changes.items():
+            bases = self._bases_of(charges, len(chosen))
+            if bases is None:
+                few[charges] = chosen
+            else:
+                found[charges] = bases.moves(parts, np.array(chosen, np.int64), nearly_empty=False)
+        if few:
+            each = [charges for charges, chosen in few.items() for _ in chosen]
+            together = np.array([change for chosen in few.values() for change in chosen], np.int64)
+            moves = iter(self._made(parts, together, each))
+            found.update((charges, list(islice(moves, len(chosen)))) for charges, chosen in few.items())
+        return found
+
+    def _bases_of(self, charges: Weights, changes: int) -> _Bases | None:
+        """What is kept for these charges, if that is worth it for so many changes."""
+        bases = self._bases.get(charges)
+        if bases is None and changes >= WORTH_A_BASE:
+            seen = self._words_up_to(last_word(self._percept, charges.buffer))
+            bases = self._bases[charges] = _Bases(seen, self._place, charges_of(charges))
+        return bases
+
+    def _words_up_to(self, last: int) -> PerceptWords:
         seen = self._words.get(last)
         if seen is None:
             seen = self._words[last] = PerceptWords(self._percept, last)
+        return seen
+
+    def _made(self, parts: Parts, chosen: NDArray[np.int64], charges: Sequence[Weights]) -> list[Move]:
+        last = last_word(self._percept, max(each.buffer for each in charges))
+        seen, rows = self._words_up_to(last), np.array([charges_of(each) for each in charges])
         moves = np.empty(len(chosen), np.uint8)
-        bases = self._bases.get(weights)
-        if bases is None and len(chosen) >= WORTH_A_BASE:
-            bare = seen.parts([seen.bare])
-            bases = self._bases[weights] = _Bases(seen.planes, bare, self._place, charges)
-        if bases is None:
-            made_moves(seen.planes, parts.words(seen), chosen, *self._place, last, charges, moves)
-        else:
-            bases.write(parts.words(seen), chosen, moves, nearly_empty=nearly_empty)
+        made_moves(seen.planes, parts.words(seen), chosen, *self._place, last, rows, moves)
         return [MOVES[move] for move in moves.tolist()]
 
 
 class _Bases:
     """What is kept of the road as it is seen and of the bare one."""
 
-    def __init__(
-        self,
-        planes: NDArray[np.uint64],
-        bare: NDArray[np.uint64],
-        place: Place,
-        charges: NDArray[np.int64],
-    ) -> None:
-        """`planes`: as of `PerceptWords`; `bare`: the part that takes all away."""
-        self._planes, self._without_all, self._place, self._charges = planes, bare, place, charges
-        self._where = *place, planes.shape[1] - 1
+    def __init__(self, seen: PerceptWords, place: Place, charges: NDArray[np.int64]) -> None:
+        self._seen, self._place, self._charges = seen, place, charges
+        self._where = *place, seen.planes.shape[1] - 1
         self._as_seen = self._keep(NOTHING, SEEN_AS_IT_IS)
         self._bare: tuple[object, ...] | None = None
 
-    def write(
-        self,
-        parts: NDArray[np.uint64],
-        chosen: NDArray[np.int64],
-        moves: NDArray[np.uint8],
-        *,
-        nearly_empty: bool,
-    ) -> None:
-        """Write the move after each change; `nearly_empty`: whether the bare road is worth being kept."""
+    def moves(self, parts: Parts, chosen: NDArray[np.int64], *, nearly_empty: bool) -> list[Move]:
+        """The move after each change; `nearly_empty`: whether some roads are more like the bare one."""
         if nearly_empty and self._bare is None:
-            self._bare = self._keep(self._without_all, np.zeros(1, np.int64))
-        other = self._bare or self._as_seen
-        moves_of_changed(
-            self._planes, parts, chosen, *self._where, self._charges, self._as_seen, other, moves
-        )
+            self._bare = self._keep(self._seen.parts([self._seen.bare]), np.zeros(1, np.int64))
+        bases = self._as_seen, self._bare or self._as_seen
+        moves = np.empty(len(chosen), np.uint8)
+        words = parts.words(self._seen)
+        moves_of_changed(self._seen.planes, words, chosen, *self._where, self._charges, *bases, moves)
+        return [MOVES[move] for move in moves.tolist()]
 
     def _keep(self, parts: NDArray[np.uint64], chosen: NDArray[np.int64]) -> tuple[object, ...]:
         """(what is seen, what is known of it, what is kept as the movers go on, and where one brakes)."""
-        seen = np.empty((VEHICLE, self._planes.shape[1]), np.uint64)
-        see(seen, self._planes, parts, chosen)
+        seen = np.empty((VEHICLE, self._seen.planes.shape[1]), np.uint64)
+        see(seen, self._seen.planes, parts, chosen)
         facts = np.zeros((2, FACTS), np.int64)
         decide_base(seen, *self._where, self._charges, facts)
         going = self._costs(seen, facts[GOING], stands=False)
@@ -182,7 +193,7 @@ class _Bases:
             np.empty((rows, ticks, columns + 2), np.int32),
         )
         if found:
-            edges, last = (place.left_edge, place.right_edge), self._planes.shape[1] - 1
+            edges, last = (place.left_edge, place.right_edge), self._seen.planes.shape[1] - 1
             where = place.cell, columns, place.rows, *edges, place.episode_tick, place.swept, last
             keep_costs(seen, *where, self._charges, kept, stands)
         return kept

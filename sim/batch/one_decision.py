@@ -176,14 +176,16 @@ def made_moves(
 ):
     """Write the move that is made after each change (`chosen`: changes, parts of each).
 
-    `planes`, `parts`: as in `sim.batch.seen_otherwise`.
+    Each is weighed by its own row of `weights`. `planes`, `parts`: as in `sim.batch.seen_otherwise`.
     """
-    scratch = make_scratch(planes.shape[1], rows, columns, max_ticks(rows), weights[BUFFER], 1)
+    scratch = make_scratch(planes.shape[1], rows, columns, max_ticks(rows), weights[:, BUFFER].max(), 1)
     seen = np.empty((VEHICLE, planes.shape[1]), np.uint64)
     size = columns, left_edge, right_edge
     for number in range(chosen.shape[0]):
         see(seen, planes, parts, chosen[number])
-        moves[number] = made_move(scratch, seen, cell, episode_tick, limit, size, swept, last, weights)[0]
+        moves[number] = made_move(
+            scratch, seen, cell, episode_tick, limit, size, swept, last, weights[number]
+        )[0]
 
 
 @compiled

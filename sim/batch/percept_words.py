@@ -13,7 +13,6 @@ from sim.batch.layout import Layout
 from sim.batch.one_decision import decided_totals
 from sim.batch.reachability import VEHICLE
 from sim.batch.seen_otherwise import NOTHING, SEEN_AS_IT_IS, see
-from sim.forecast import Forecast
 from sim.perceive import Percept
 from sim.rules.behaviour import DEFAULT_BEHAVIOUR
 from sim.rules.dynamics import DEFAULT_DYNAMICS
@@ -31,10 +30,10 @@ _WALKERS: Final = MARKED.index(Kind.PEDESTRIAN)
 
 
 def totals_where_compiled(
-    forecast: Forecast, weights: Weights, limit: int
+    percept: Percept, weights: Weights, limit: int
 ) -> tuple[tuple[int | None, ...], int | None] | None:
     """`totals_of` of what `is_compiled_for`, else None."""
-    return totals_of(forecast, weights, limit) if is_compiled_for(forecast.percept, weights, limit) else None
+    return totals_of(percept, weights, limit) if is_compiled_for(percept, weights, limit) else None
 
 
 def is_compiled_for(percept: Percept, weights: Weights, limit: int) -> bool:
@@ -50,12 +49,11 @@ def is_compiled_for(percept: Percept, weights: Weights, limit: int) -> bool:
     )
 
 
-def totals_of(forecast: Forecast, weights: Weights, limit: int) -> tuple[tuple[int | None, ...], int | None]:
+def totals_of(percept: Percept, weights: Weights, limit: int) -> tuple[tuple[int | None, ...], int | None]:
     """What each move costs in all (None: no way), and the move after which one lasts longest where none has.
 
     `limit`: steps that are left, in ticks. Precondition: `is_compiled_for`.
     """
-    percept = forecast.percept
     last = last_word(percept, weights.buffer)
     seen, out = np.empty((VEHICLE, last + 1), np.uint64), np.empty(6, np.int64)
     see(seen, PerceptWords(percept, last).planes, NOTHING, SEEN_AS_IT_IS)

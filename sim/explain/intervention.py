@@ -176,6 +176,10 @@ class Intervention:
         ):
             return None
         gone = frozenset(gone)
+        otherwise = None if self.quick is None else self.quick.without(gone)
+        if otherwise is not None:
+            unlike = otherwise.unlike._replace(barriers=board_of(cells))
+            return self.made_after([otherwise._replace(unlike=unlike)])[0]
         seen = percept.without(_things(gone)) if gone else percept
         barriers = seen.boards[Kind.BARRIER] | board_of(cells)
         seen = replace(

@@ -6,7 +6,7 @@ of such a percept, which the tests compare; where that cannot be had, `QuickMove
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from sim.config import Config
@@ -116,23 +116,36 @@ class QuickMoves:
         """Changes of which others are made up (`moves_of`)."""
         return ChangeParts(unlike, None if self._ranked else self._kernel.parts(unlike))
 
-    def moves_of(self, parts: ChangeParts, chosen: Sequence[Sequence[int]], charges: Weights) -> list[Move]:
-        """The move after each change, by the numbers of its parts (of all changes as many)."""
+    def moves_of(
+        self, parts: ChangeParts, changes: Mapping[Weights, Sequence[Sequence[int]]]
+    ) -> dict[Weights, list[Move]]:
+        """The moves after changes, by the charges they leave; at least one of each.
+
+        A change is said by the numbers of its parts, all of as many.
+        """
         if parts.words is not None:
-            return self._kernel.moves_of(parts.words, chosen, charges)
-        return self.moves([SeenOtherwise(parts.together(each), charges) for each in chosen])
+            return self._kernel.moves_of(parts.words, changes)
+        return {
+            charges: self.moves([SeenOtherwise(parts.together(each), charges) for each in chosen])
+            for charges, chosen in changes.items()
+        }
 
     def without_each(self, names: Sequence[str]) -> dict[str, Move]:
         """The move without each of these alone, of those that are known here."""
-        known = [name for name in names if name in self._movers or name in self._fixed or is_factor(name)]
-        changes = [
-            SeenOtherwise(
-                Unlike(self._movers.get(name, 0), self._fixed.get(name, 0)),
-                self.charges_without((name,)) if is_factor(name) else self._charges,
-            )
-            for name in known
-        ]
-        return dict(zip(known, self.moves(changes), strict=True))
+        changes = {}
+        for name in names:
+            unlike = self.unlike_without(name)
+            if unlike is not None:
+                changes[name] = SeenOtherwise(unlike, self._charges)
+            elif is_factor(name):
+                changes[name] = SeenOtherwise(Unlike(), self.charges_without((name,)))
+        return dict(zip(changes, self.moves([*changes.values()]), strict=True))
+
+    def unlike_without(self, name: str) -> Unlike | None:
+        """What is seen without a thing; None if it is not known."""
+        if name in self._movers:
+            return Unlike(self._movers[name])
+        return Unlike(0, self._fixed[name]) if name in self._fixed else None
 
     def _matters(self, unlike: Unlike) -> bool:
         """Whether anything is otherwise where it can have a part."""

@@ -39,27 +39,36 @@ class TogetherTried:
 
         Raises `WorkSpentError` where not all of them may be tried any more.
         """
-        by_wishes: dict[tuple[int, ...], list[int]] = {}
+        places: dict[tuple[int, ...], list[int]] = {}
         for place, change in enumerate(changes):
             if self._unsaid.isdisjoint(change):
-                wishes = self._wishes.intersection(change)
-                key = tuple(number for number in change if number in wishes) if wishes else ()
-                by_wishes.setdefault(key, []).append(place)
-        self._rerun.spend(sum(map(len, by_wishes.values())))
+                wishes = () if self._wishes.isdisjoint(change) else self._wishes_of(change)
+                places.setdefault(wishes, []).append(place)
+        self._rerun.spend(sum(map(len, places.values())))
+        by_charges: dict[Weights, list[int]] = {}
+        for wishes, at in places.items():
+            by_charges.setdefault(self._charges_after(wishes), []).extend(at)
+        moves = self._quick.moves_of(
+            self._parts, {charges: [changes[place] for place in at] for charges, at in by_charges.items()}
+        )
         found: list[Move | None] = [None] * len(changes)
-        for key, places in by_wishes.items():
-            charges = self._charges.get(key)
-            if charges is None:
-                charges = self._charges[key] = self._with_wishes([self._edits[number] for number in key])
-            moves = self._quick.moves_of(self._parts, [changes[place] for place in places], charges)
-            for place, move in zip(places, moves, strict=True):
+        for charges, at in by_charges.items():
+            for place, move in zip(at, moves[charges], strict=True):
                 found[place] = move
         return found
 
+    def _wishes_of(self, change: tuple[int, ...]) -> tuple[int, ...]:
+        return tuple(number for number in change if number in self._wishes)
+
+    def _charges_after(self, wishes: tuple[int, ...]) -> Weights:
+        """The charges after these edits of wishes."""
+        if wishes not in self._charges:
+            self._charges[wishes] = self._with_wishes([self._edits[number] for number in wishes])
+        return self._charges[wishes]
+
     def _of_edit(self, edit: Edit) -> Unlike | None:
         if edit.gone:
-            otherwise = self._quick.without((edit.gone,))
-            return None if otherwise is None else otherwise.unlike
+            return self._quick.unlike_without(edit.gone)
         return self._added(edit.actions)
 
     def _added(self, actions: Sequence[WorldAction]) -> Unlike | None:

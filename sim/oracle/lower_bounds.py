@@ -10,6 +10,7 @@ nothing is claimed: `UndeterminedError`, which is an `ImpatientError` (`sim.orac
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 from typing import Final
 
 from sim.forecast import Forecast
@@ -70,7 +71,9 @@ def least_ticks(
 
 def _ticks_without_reactions(forecast: Forecast, limit: int) -> int | None:
     """The ticks of a quickest way where nobody brakes, by compiled words where these are loaded."""
-    found = None if forecast.percept.attentive else compiled_costs(forecast, TICKS_ALONE, limit)
+    percept = forecast.percept
+    unheeded = replace(percept, attentive=0) if percept.attentive else percept
+    found = compiled_costs(unheeded, TICKS_ALONE, limit)
     if found is None:
         return reachability(forecast, 1 << forecast.ego, limit).ticks
     return min((total for total in found.totals if total is not None), default=None)

@@ -65,7 +65,7 @@ class AStarPlanner:
     def decide(self, forecast: Forecast, config: Config) -> Decision:
         """The move, and what each of the six costs in all."""
         limit, charges = steps_left(config, forecast.episode_tick), weights(config)
-        found = compiled_costs(forecast, charges, limit)
+        found = compiled_costs(forecast.percept, charges, limit)
         if found is not None:
             return decide_by_cost(self.name, Measure.COST, forecast, found.totals, limit, found.lasting)
         return decide_by_cost(self.name, Measure.COST, forecast, searched(forecast, charges, limit), limit)

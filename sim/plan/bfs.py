@@ -31,7 +31,7 @@ class BfsPlanner:
     def decide(self, forecast: Forecast, config: Config) -> Decision:
         """The move, and the ticks each of the six leads to the goal in."""
         limit = steps_left(config, forecast.episode_tick)
-        found = compiled_costs(forecast, TICKS_ALONE, limit)
+        found = compiled_costs(forecast.percept, TICKS_ALONE, limit)
         if found is not None:
             return decide_by_cost(self.name, Measure.TICKS, forecast, found.totals, limit, found.lasting)
         return decide_by_cost(self.name, Measure.TICKS, forecast, least_ticks_by_move(forecast, limit), limit)

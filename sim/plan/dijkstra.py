@@ -34,7 +34,7 @@ class DijkstraPlanner:
         from sim.search.backward_dp import totals_by_move
 
         limit, charges = steps_left(config, forecast.episode_tick), weights(config)
-        found = compiled_costs(forecast, charges, limit)
+        found = compiled_costs(forecast.percept, charges, limit)
         if found is not None:
             return decide_by_cost(self.name, Measure.COST, forecast, found.totals, limit, found.lasting)
         totals = totals_by_move(forecast, charges, limit)

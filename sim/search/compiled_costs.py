@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from sim.compiled_files import ready_mark
-from sim.forecast import Forecast
 from sim.perceive import Percept
 from sim.search.costs import Weights
 from sim.types import MOVES, Move
@@ -49,7 +48,7 @@ class Unlike(NamedTuple):
     """cells with a pothole more"""
 
 
-_Found = Callable[[Forecast, Weights, int], "tuple[tuple[int | None, ...], int | None] | None"]
+_Found = Callable[[Percept, Weights, int], "tuple[tuple[int | None, ...], int | None] | None"]
 _found: _Found | None = None
 
 
@@ -93,14 +92,14 @@ def forget_compiled_costs() -> None:
     _found = None
 
 
-def compiled_costs(forecast: Forecast, weights: Weights, limit: int) -> CompiledCosts | None:
-    """What every move costs with `limit` ticks left; None where it must be searched for.
+def compiled_costs(percept: Percept, weights: Weights, limit: int) -> CompiledCosts | None:
+    """What every move costs where this is seen, with `limit` ticks left; None where it must be searched for.
 
     That is where nothing is loaded, and of roads, movers or sensors that it is not compiled for.
     """
     if _found is None:
         return None
-    found = _found(forecast, weights, limit)
+    found = _found(percept, weights, limit)
     if found is None:
         return None
     totals, lasting = found

@@ -16,7 +16,7 @@ from sim.batch.move_kernel import WORTH_A_BASE
 from sim.batch.percept_words import is_compiled_for
 from sim.config import Collision, Config
 from sim.decide import decide, decide_on, sense
-from sim.forecast import Forecast, predict
+from sim.forecast import Forecast
 from sim.perceive import OtherEgo
 from sim.plan.astar import searched
 from sim.search import compiled_costs as compiled
@@ -69,7 +69,7 @@ def test_the_totals_are_those_of_every_search(
     state = run_on(world, preferences=tuple(wishes), safety_buffer=buffer, **reactions)
     forecast, limit = foreseen(state)
     charges = weights(state.config)
-    found = compiled.compiled_costs(forecast, charges, limit)
+    found = compiled.compiled_costs(forecast.percept, charges, limit)
     if limit < 2:
         assert found is None
         return
@@ -194,9 +194,10 @@ def test_what_is_kept_of_a_road_answers_as_a_decision_of_its_own(
     several = [tuple(draw.sample(numbers, 3)) for _ in range(30)]
     kept, anew = compiled.move_kernel(percept, limit), compiled.move_kernel(percept, limit)
     for chosen in ([(number,) for number in numbers], several):
-        found = kept.moves_of(kept.parts(parts), chosen, charges)
+        found = kept.moves_of(kept.parts(parts), {charges: chosen})[charges]
         for numbers_of, move in zip(chosen, found, strict=True):
-            assert [move] == anew.moves_of(anew.parts(parts), [numbers_of], charges), numbers_of
+            alone = anew.moves_of(anew.parts(parts), {charges: [numbers_of]})
+            assert [move] == alone[charges], numbers_of
     left = [draw.sample(things, min(4, len(things))) for _ in range(10)]
     rest = [
         compiled.Unlike(
@@ -214,7 +215,7 @@ def test_the_slow_search_over_the_twin_agrees(world: World, wishes: list[Prefere
     state = run_on(world, preferences=tuple(wishes), safety_buffer=buffer)
     forecast, limit = foreseen(state)
     charges = weights(state.config)
-    found = compiled.compiled_costs(forecast, charges, limit)
+    found = compiled.compiled_costs(forecast.percept, charges, limit)
     if found is None:
         return
     bound = max((total for total in found.totals if total is not None), default=0)
@@ -227,7 +228,7 @@ def test_what_they_are_not_made_for_is_searched() -> None:
     percept, charges = sense(state)[0], weights(state.config)
     doubted = replace(percept, doubtful=(board_of([11]),))
     accompanied = replace(percept, egos=(OtherEgo("av-2", 4, Move.STAY, parked=True),))
-    assert compiled.compiled_costs(predict(percept, 20), charges, 20) is not None
+    assert compiled.compiled_costs(percept, charges, 20) is not None
     for seen in (doubted, accompanied, replace(percept, behaviour="another"), replace(percept, dynamics="x")):
         assert not is_compiled_for(seen, charges, 20)
 
