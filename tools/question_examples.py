@@ -25,8 +25,13 @@ class Example(NamedTuple):
 
 
 def sources_of(folder: Path) -> str:
-    """The digest of what is learnt from: the questions, the words of slots and the names of the kinds."""
-    files = [folder / name for name in (EXAMPLES, ASKED, WORDS) if (folder / name).exists()]
+    """The digests of what is learnt from and of the words of slots."""
+    return f"{learnt_from(folder)} {hashlib.sha256((folder / WORDS).read_bytes()).hexdigest()}"
+
+
+def learnt_from(folder: Path) -> str:
+    """The digest of what is learnt from: the questions and the names of the kinds."""
+    files = [folder / name for name in (EXAMPLES, ASKED) if (folder / name).exists()]
     parts = [*(file.read_bytes() for file in files), *(name.encode() for name in read_kinds(folder))]
     return hashlib.sha256(b"\n".join(parts)).hexdigest()
 

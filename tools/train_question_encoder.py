@@ -12,7 +12,7 @@ random, as by a hasty hand. It is learnt several times with other draws, and the
 some minutes on a GPU (`--device cuda`), hours on two cores.
 
 With `--further` it begins with the encoder at hand instead, and learns new questions and kinds in two rounds:
-half an hour on one core.
+half an hour on one core. Where only `words.yaml` has changed, `tools.question_words` is enough.
 """
 
 from __future__ import annotations
@@ -35,11 +35,12 @@ from torch.nn import functional
 
 from service.grammar import Language
 from service.question_matcher.encoder import FILE, HEADS, MAX_PIECES, TINY, write
-from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, read_kinds
+from service.question_matcher.kinds import QuestionKind, read_kinds
 from service.question_matcher.situations import Situation, led
 from service.question_matcher.slots import SlotWords
 from service.resources import prompts_folder
 from tools.question_examples import Example, asked_of, examples_of, sources_of
+from tools.question_words import words_of
 
 WIDTH, WIDER, LAYERS = 384, 1536, 6
 BATCH = 64
@@ -259,13 +260,6 @@ def also_of(asked: Sequence[Example], kinds: Sequence[str]) -> NDArray[np.float6
     return shares
 
 
-def words_of(examples: Sequence[Example], language: str, folder: Path) -> frozenset[str]:
-    """The words of the questions that have an answer, with marks for slots."""
-    slots = SlotWords(Language.load(language), folder)
-    answered = (example.text for example in examples if example.kinds[0] != NONE_OF_THEM)
-    return frozenset(word for text in answered for word in slots.question(text).words)
-
-
 def _names() -> Iterator[tuple[str, str, bool]]:
     """Each part of the network, what the service's file calls it, and whether it is a norm."""
     yield "norm", "pieces.norm", True
@@ -377,7 +371,7 @@ def main() -> None:
         networks.append(network.cpu())
     network = averaged(networks)
     names = list(kinds)
-    words = words_of(examples + of_people, options.language, folder)
+    words = words_of(examples + of_people, SlotWords(Language.load(options.language), folder))
     learnt = Learnt(names, also_of(of_people, names), words, sources_of(folder))
     save(network.eval(), tokenizer, learnt, folder / FILE)
 

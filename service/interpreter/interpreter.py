@@ -28,7 +28,7 @@ from service.interpreter.aliases import Aliases
 from service.interpreter.languages import Language, Languages
 from service.interpreter.preview import Preview, preview
 from service.interpreter.question import Asked, answered, asked_by, only_doable
-from service.interpreter.question_reader import QuestionReader, situations
+from service.interpreter.question_reader import QuestionReader, now_of
 from service.interpreter.sentence_cache import SentenceCache
 from service.llm.protocol import LanguageModel
 from service.problems import FieldProblem, Invalid, NotAQuestion, NotUnderstood, ProblemError
@@ -228,7 +228,7 @@ class Interpreter:
             return None
         run = session.run if at_tick is None else session.timeline.at(at_tick)
         topic = self.topic(session, code, at_tick)
-        question = await self._questions.read(text, topic, code, situations(run))
+        question = await self._questions.read(text, topic, code, now_of(run))
         if question is None:
             return None
         return ParsedCommand(

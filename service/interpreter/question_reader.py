@@ -15,7 +15,7 @@ from service.interpreter.languages import Language, Languages
 from service.interpreter.question import Asked
 from service.question_matcher.matcher import Match, QuestionMatcher
 from service.question_matcher.parts import Part
-from service.question_matcher.situations import Situation
+from service.question_matcher.situations import Now, Situation
 from service.refusals import refusals
 from service.sessions.pending import PendingChoice, PendingQuestion
 from sim.state import SimState
@@ -44,10 +44,10 @@ class QuestionReader:
         self._parsing = parsing
         self._asks = asks
 
-    async def read(self, text: str, topic: Topic, code: str, now: frozenset[Situation]) -> Question | None:
+    async def read(self, text: str, topic: Topic, code: str, now: Now) -> Question | None:
         """The question, answered in the language it is in; None where there is none.
 
-        Raises `Asked` where it may be one of several. `now`: the situations of the session.
+        Raises `Asked` where it may be one of several. `now`: what the session is like.
         """
         for other in self._languages.codes:
             if other == code:
@@ -71,9 +71,7 @@ class QuestionReader:
             return False
         return await to_thread.run_sync(matcher.is_of_something_else, text, limiter=self._parsing)
 
-    async def _matched(
-        self, text: str, topic: Topic, code: str, now: frozenset[Situation], *, asks: bool
-    ) -> Question | None:
+    async def _matched(self, text: str, topic: Topic, code: str, now: Now, *, asks: bool) -> Question | None:
         """What a text is like in one language. Raises `Asked` where that is several, if it `asks`."""
         language, matcher = self._languages[code], self._languages.matcher(code)
         if matcher is None:
@@ -124,7 +122,7 @@ class _Likeness:
     language: Language
     matcher: QuestionMatcher
     topic: Topic
-    now: frozenset[Situation]
+    now: Now
 
     def of(self, text: str) -> _Read | _Unsure | None:
         """The question that a text is like, or the several that it may be; None where it is like none."""
@@ -223,12 +221,21 @@ _OF_OUTCOMES: Final[Mapping[Outcome, Situation]] = {
 }
 
 
-def situations(run: SimState) -> frozenset[Situation]:
-    """The situations of a run that say what may be asked."""
+def now_of(run: SimState) -> Now:
+    """What a run is like: what may be asked of it, and what a question about it need not say."""
     found: set[Situation] = {_OF_OUTCOMES[run.world.outcome]}
     if run.mode is Mode.MANUAL:
         found.add("manual")
-    return frozenset(found)
+    config, world = run.config_of(), run.world
+    facts = {
+        ("planner", config.planner),
+        ("sensor", config.sensor),
+        ("weather", config.weather),
+        ("weather", config.time_of_day),
+        ("tick", str(world.tick)),
+        ("n", f"the {world.episode_tick}"),
+    }
+    return Now(frozenset(found), frozenset(facts))
 
 
 def _only_asks(parse: Understood) -> bool:

@@ -54,7 +54,7 @@ class QuestionKind:
     """the situation in which it is mostly asked"""
     unless: frozenset[str] = frozenset()
     """words that turn it round, such as "not": a question that has one is not of this kind"""
-    with_words: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    with_words: tuple[tuple[Canonical, frozenset[str]], ...] = ()
     """sentences that ask it where a question has one of some words: "ghosts" asks for false alarms first"""
 
     def naming(self, taken_apart: Callable[[str], Question]) -> QuestionKind:
@@ -69,16 +69,21 @@ class QuestionKind:
         return not self.unless.isdisjoint(question.words)
 
     def sentence(self, question: Question) -> str | None:
-        """The sentence that uses all binding slots but the ignored ones; None where none does."""
+        """The sentence that uses all binding slots but the ignored ones; None where none does.
+
+        What says only what is so anyway may be left out, if no sentence has room for it.
+        """
         if self.is_turned(question):
             return None
         binding = question.binding - self.ignores
-        for said, words in self.with_words.items():
-            if not binding and not words.isdisjoint(question.words):
-                return said
+        return self._fitting(question, binding) or self._fitting(question, binding - question.restated)
+
+    def _fitting(self, question: Question, binding: frozenset[str]) -> str | None:
+        """The sentence that uses all of these slots."""
+        by_words = (each for each, words in self.with_words if not words.isdisjoint(question.words))
         fits = (
             each
-            for each in self.says
+            for each in (*by_words, *self.says)
             if each.slots <= question.slots.keys() and binding <= each.marks | each.shares(question)
         )
         canonical = next(fits, None)
@@ -105,7 +110,10 @@ def read_kinds(folder: Path) -> dict[str, QuestionKind]:
             frozenset(entry.get("ignores", ())),
             entry.get("when"),
             frozenset(entry.get("unless", ())),
-            {said: frozenset(words) for said, words in entry.get("with_words", {}).items()},
+            tuple(
+                (Canonical.of(text, forms), frozenset(words))
+                for text, words in entry.get("with_words", {}).items()
+            ),
         )
         for name, entry in data.items()
     }

@@ -9,12 +9,12 @@ occurs in no example.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from service.actions import Action, Ask, Chat, Resume, Undo
+from service.actions import Action, Ask, Chat, Resume, Step, Undo
 from service.grammar import Language
 from service.grammar.parse_types import Understood
 from service.grammar.topic import ALONE
@@ -25,9 +25,9 @@ from service.question_matcher.follow_ups import FollowUps
 from service.question_matcher.kind_scores import KindScores
 from service.question_matcher.kinds import NONE_OF_THEM, QuestionKind, read_kinds
 from service.question_matcher.parts import Part, Parts
-from service.question_matcher.situations import Situation
+from service.question_matcher.situations import UNKNOWN, Now
 from service.question_matcher.slots import Question, SlotWords
-from sim.actions import Pause, Reset
+from sim.actions import Pause, Prefer, Reset, Set
 
 NEAR = 1.5
 """Lead over another kind, in logarithms of odds, below which both are offered."""
@@ -55,7 +55,20 @@ MOST_SHORTENED = 300
 MOST_IN_PARTS = 300
 """Letters of a text that is read in parts."""
 _THINGS = frozenset(("<thing>", "<things>"))
-_CLOCK = (Pause, Resume, Reset, Undo)
+
+
+def _is_a_request(action: Action) -> bool:
+    return not isinstance(action, Ask | Chat)
+
+
+def _is_of_the_clock(action: Action) -> bool:
+    """What counts in a name alone: "fog" may be a topic, "stop" is a request."""
+    return isinstance(action, Pause | Resume | Reset | Undo)
+
+
+def _is_no_circumstance(action: Action) -> bool:
+    """What counts in words of a time, a place or a manner: "at night" belongs to the question beside it."""
+    return not isinstance(action, Ask | Chat | Set | Prefer | Step)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,9 +157,9 @@ class QuestionMatcher:
         """Whether a text names a thing on the road other than the vehicle."""
         return not _THINGS.isdisjoint(self._words.question(text).words)
 
-    def match(self, text: str, situations: Collection[Situation] = ()) -> Match | None:
-        """What a question may stand for in some situations; None where it is like none that has an answer."""
-        question = self._words.question(text)
+    def match(self, text: str, now: Now = UNKNOWN) -> Match | None:
+        """What a question may stand for; None where it is like none that has an answer."""
+        question, situations = self._words.question(text).asked(now.facts), now.situations
         if len(question.words) > MAX_WORDS or not self._words.says_something(question):
             return None
         if not self._words.asks(text, question) or self._holds_a_request(text):
@@ -206,24 +219,29 @@ class QuestionMatcher:
     def _holds_a_request(self, text: str) -> bool:
         """Whether a part of a text asks for something to be done: nothing of that may be left out."""
         joined = "|".join(map(re.escape, sorted(self._language.joiners)))
-        parts = [part.strip() for part in re.split(rf"[.;!?,]|\b(?:{joined})\b", text)]
-        return any(
-            self._does_something(part, alone=at > 0 and self._words.is_a_name(part))
-            for at, part in enumerate(parts)
-        )
+        first = True
+        for sentence in re.split(r"[.;!?]", text):
+            parts = [each.strip() for each in re.split(rf",|\b(?:{joined})\b", sentence) if each.strip()]
+            asks = [self._words.asks(each, self._words.question(each)) for each in parts]
+            for number, part in enumerate(parts):
+                counts = _is_a_request
+                if not first and self._words.is_a_name(part):
+                    counts = _is_of_the_clock
+                elif any(asks[:number] + asks[number + 1 :]) and self._words.is_a_circumstance(part):
+                    counts = _is_no_circumstance
+                if self._does(part, counts):
+                    return True
+                first = False
+        return False
 
-    def _does_something(self, part: str, *, alone: bool) -> bool:
-        """Whether a part is a request; of a name `alone` only one about the clock: "fog" may be a topic."""
-        if not part:
-            return False
+    def _does(self, part: str, counts: Callable[[Action], bool]) -> bool:
+        """Whether a part does something that counts as a request."""
         try:
             # Not `parse`: what would be asked about or suggested is of no use here.
             parse = self._language.read(part, ALONE, WorkBudget(), asking=False)
         except BudgetExceededError:
             return True
-        return isinstance(parse, Understood) and any(
-            isinstance(each, _CLOCK) if alone else not isinstance(each, Ask | Chat) for each in parse.actions
-        )
+        return isinstance(parse, Understood) and any(map(counts, parse.actions))
 
     def _unknown(self, words: Sequence[str]) -> list[str]:
         """The words that occur in no example that has an answer, a slip of the pen aside."""

@@ -3,9 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import dataclass
 from typing import Final, Literal
 
 Situation = Literal["running", "crash", "stuck", "arrived", "manual"]
+
+
+@dataclass(frozen=True, slots=True)
+class Now:
+    """What a session is like while something is asked."""
+
+    situations: frozenset[Situation] = frozenset()
+    facts: frozenset[tuple[str, str]] = frozenset()
+    """what is so without being said, by the mark of its slot: ("planner", "astar"), ("tick", "12")"""
+
+
+UNKNOWN: Final = Now()
+"""Of a question that is asked of no session."""
 
 LEADS: Final[dict[Situation, str]] = {
     "manual": "by hand",

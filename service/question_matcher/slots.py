@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
@@ -36,6 +36,15 @@ class Question:
     """the words that a canonical sentence has for each slot"""
     binding: frozenset[str]
     """slots that an answer must not leave out"""
+    named: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    """by mark, what is named, as the lexicon has it"""
+    restated: frozenset[str] = frozenset()
+    """slots that only say what is so anyway, such as the planner that drives"""
+
+    def asked(self, facts: Collection[tuple[str, str]]) -> Question:
+        """The same question, asked where these are the facts (`Now.facts`)."""
+        marks = (mark for mark, values in self.named.items() if all((mark, each) in facts for each in values))
+        return replace(self, restated=frozenset(marks))
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +55,8 @@ class _Span:
     end: int
     mark: str
     slots: Mapping[str, str]
+    value: str = ""
+    """what is named, as the lexicon has it"""
 
 
 class SlotWords:
@@ -100,7 +111,10 @@ class SlotWords:
             binding.add("instead")
             slots["instead"] = self._data["moves"][FORWARD]["going"]
         slots |= self._term(tokens, lattice)
-        return Question(words, slots, frozenset(binding - _LOOSE))
+        named: dict[str, frozenset[str]] = {}
+        for span in spans:
+            named[span.mark] = named.get(span.mark, frozenset()) | {span.value}
+        return Question(words, slots, frozenset(binding - _LOOSE), named)
 
     def _term(self, tokens: Sequence[Token], lattice: Lattice) -> dict[str, str]:
         """The slot of the first word of the glossary, the longest there; every question may leave it out."""
@@ -139,6 +153,10 @@ class SlotWords:
         """Whether a text is one word, but for articles and the like: "fog", "the night"."""
         lead = {*self._data["determiners"], *self._data["indefinite"]}
         return sum(word not in lead for word in text.casefold().split()) <= 1
+
+    def is_a_circumstance(self, text: str) -> bool:
+        """Whether a text tells a time, a place or a manner, by its first word: "at night", "tick 10"."""
+        return text.casefold().split(maxsplit=1)[0] in self._data.get("circumstances", ())
 
     def asks(self, text: str, question: Question) -> bool:
         """Whether a text has the form of a question, or of a wish to be told."""
@@ -187,13 +205,14 @@ class SlotWords:
                 continue
             if mark == "planner" and self._is_no_planner(tokens, edge):
                 continue
-            value = str(edge.sense.value)
+            value = said = str(edge.sense.value)
             if mark == "weather":
-                yield _Span(edge.start, edge.end, mark, self._weather(value))
+                if not self._is_no_weather(tokens, edge):
+                    yield _Span(edge.start, edge.end, mark, self._weather(value), value)
                 continue
             if mark in ("planner", "sensor"):
-                value = _text(tokens, edge.start, edge.end)
-            yield _Span(edge.start, edge.end, mark, {mark: value})
+                said = _text(tokens, edge.start, edge.end)
+            yield _Span(edge.start, edge.end, mark, {mark: said}, value)
 
     def _weather(self, value: str) -> dict[str, str]:
         """The words for a weather or a time of day: how it is, what it is, and how it is if that hampers."""
@@ -201,6 +220,13 @@ class SlotWords:
         noun = self._data.get("weather_nouns", {}).get(value, said)
         hampers = {} if value in self._data.get("hampers_nothing", ()) else {"bad_weather": said}
         return {"weather": said, "weather_noun": noun, **hampers}
+
+    def _is_no_weather(self, tokens: Sequence[Token], edge: Edge) -> bool:
+        """Whether a word that may name a weather says something else: "the way was clear"."""
+        loose = self._data.get("loose_weathers")
+        if loose is None or _text(tokens, edge.start, edge.end) not in loose["names"]:
+            return False
+        return not any(token.text in loose["beside"] for token in tokens)
 
     def _is_no_planner(self, tokens: Sequence[Token], edge: Edge) -> bool:
         """Whether words that may name a planner are meant as such only after others: "rules"."""
@@ -297,7 +323,9 @@ class SlotWords:
                 ):
                     yield _Span(edge.start, edge.end, "move", self._data["moves"][value])
             elif edge.concept == "number" and edge.sense.value not in (0, 1):
-                yield _Span(edge.start, edge.end, "n", {"n": str(edge.sense.value)})
+                counted = edge.start > 0 and tokens[edge.start - 1].text in self._data.get("counted", ())
+                value = str(edge.sense.value)
+                yield _Span(edge.start, edge.end, "n", {"n": value}, f"the {value}" if counted else value)
 
 
 _ONE, _MANY = "noun.thing.one", "noun.thing.many"

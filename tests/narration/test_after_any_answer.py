@@ -12,7 +12,7 @@ from service.actions import Action, Ask
 from service.grammar import Language
 from service.grammar.parse_types import Understood
 from service.narration import Narrator
-from service.question_matcher.kinds import Canonical, read_kinds
+from service.question_matcher.kinds import read_kinds
 from service.resources import prompts_folder
 from service.sessions.facts import Asked
 from service.sessions.pending import Talk
@@ -39,7 +39,7 @@ def said() -> Mapping[str, Said]:
     slots |= {"tick": "3", "until": "5"}
     found: dict[str, Said] = {}
     for kind in read_kinds(FOLDER).values():
-        for canonical in (*kind.says, *map(Canonical.of, kind.with_words)):
+        for canonical in (*kind.says, *(each for each, _ in kind.with_words)):
             parse = language.parse(canonical.text.format_map(slots))
             assert isinstance(parse, Understood)
             for place, ask in enumerate(parse.actions):
