@@ -226,7 +226,8 @@ class SlotWords:
         loose = self._data.get("loose_weathers")
         if loose is None or _text(tokens, edge.start, edge.end) not in loose["names"]:
             return False
-        return not any(token.text in loose["beside"] for token in tokens)
+        before = tokens[edge.start - 1].text if edge.start else ""
+        return before not in loose["after"] and not any(token.text in loose["beside"] for token in tokens)
 
     def _is_no_planner(self, tokens: Sequence[Token], edge: Edge) -> bool:
         """Whether words that may name a planner are meant as such only after others: "rules"."""
