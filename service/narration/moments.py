@@ -154,7 +154,7 @@ class Patterns:
             key = "behind" if examined == found.made else "of_last"
             text = self._say(key, clauses=clauses, count=examined)
             parts.append(Part(0, capital(text)))
-        alone = sum(not each.ids for each in found.instances)
+        alone = sum(not each.ids and not each.by_hand for each in found.instances)
         if alone:
             text = self._say("nothing_alone", times=self._times(alone))
             parts.append(Part(1, capital(text)))

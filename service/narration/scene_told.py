@@ -132,9 +132,10 @@ class SceneTold:
             return self.say("number_none", things=self.noun(kind, 2))
         ahead = sorted((thing for thing in things if thing.rows > 0), key=lambda thing: thing.rows)
         if not ahead:
-            return self.say("number_none_ahead", total=len(things))
+            return self.say("number_none_ahead", total=len(things), things=self.noun(kind, len(things)))
         key = "number_found" if len(ahead) == len(things) else "number_found_ahead"
-        told = self.say(key, total=len(things), ahead=len(ahead), listed=self.listed(ahead))
+        named, listed = self.noun(kind, len(things)), self.listed(ahead)
+        told = self.say(key, total=len(things), things=named, ahead=len(ahead), listed=listed)
         return within([Part(0, told), *(Part(1, each) for each in self._met(ahead))])
 
     def _ahead(self, ahead: Sequence[Detection], rest: int) -> str:

@@ -40,11 +40,20 @@ class Question:
     """by mark, what is named, as the lexicon has it"""
     restated: frozenset[str] = frozenset()
     """slots that only say what is so anyway, such as the planner that drives"""
+    others: Mapping[tuple[str, str], Mapping[str, str]] = field(default_factory=dict)
+    """the words for slots of all sensors and weathers that are named, by mark and value"""
 
     def asked(self, facts: Collection[tuple[str, str]]) -> Question:
-        """The same question, asked where these are the facts (`Now.facts`)."""
+        """The same question, asked where these are the facts (`Now.facts`).
+
+        Of two sensors, or weathers, it is about the one that there is not: "cameras or lidar, which is best?"
+        """
         marks = (mark for mark, values in self.named.items() if all((mark, each) in facts for each in values))
-        return replace(self, restated=frozenset(marks))
+        slots = dict(self.slots)
+        for (mark, value), said in self.others.items():
+            if (mark, value) not in facts and any((mark, each) in facts for each in self.named[mark]):
+                slots |= said
+        return replace(self, slots=slots, restated=frozenset(marks))
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +123,8 @@ class SlotWords:
         named: dict[str, frozenset[str]] = {}
         for span in spans:
             named[span.mark] = named.get(span.mark, frozenset()) | {span.value}
-        return Question(words, slots, frozenset(binding - _LOOSE), named)
+        others = {(span.mark, span.value): span.slots for span in spans if span.mark in _OF_THE_SESSION}
+        return Question(words, slots, frozenset(binding - _LOOSE), named, others=others)
 
     def _term(self, tokens: Sequence[Token], lattice: Lattice) -> dict[str, str]:
         """The slot of the first word of the glossary, the longest there; every question may leave it out."""
@@ -345,6 +355,8 @@ _SECOND = {"move": ("instead", "going"), "tick": ("until", "tick"), "planner": (
 _THIRD = "third"
 """Binding where three planners are named: no sentence has room for them."""
 _EGO = "ego"
+_OF_THE_SESSION = ("sensor", "weather")
+"""Marks of which a session has one of its own, beside which another may be named."""
 _LOOSE = frozenset(("things", _EGO))
 """Marks of what a question may name in passing."""
 

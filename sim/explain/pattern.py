@@ -34,6 +34,8 @@ class Instance:
     """what it hung on; without it another move is made"""
     rather: Move | None
     """the move that is made without it"""
+    by_hand: bool = False
+    """whether a person asked for the move, so that it hung on nothing"""
 
     @property
     def tick(self) -> int:
@@ -115,7 +117,7 @@ def instance_of(timeline: Timeline, state: SimState) -> Instance:
     """What the decision in a state hung on; nothing of a move that a person asked for."""
     decision = timeline.decided(state)
     if decision is None or decision.asked is not None:
-        return Instance(state, (), None)
+        return Instance(state, (), None, by_hand=decision is not None)
     rerun = Intervention(state, decision, timeline.announced(state))
     option = telling_option(state, decision)
     tried = [] if option is None else [tuple(option.causes)]
