@@ -88,7 +88,7 @@ def test_a_why_names_its_causes_and_the_flip() -> None:
     ("ask", "words"),
     [
         ({"about": "why", "tick": 999}, "There is no tick 999 yet: this is tick 3."),
-        ({"about": "why", "tick": 3}, "The decision of tick 3 has not been taken yet"),
+        ({"about": "why", "tick": 3}, "The decision of tick 3 is still to come"),
         ({"about": "why", "move": Move.STAY}, "In my last 3 moves I did not stay."),
         ({"about": "why_not", "move": Move.FORWARD}, "But that is what I did: I went forward."),
         ({"about": "status"}, "I am in lane 5, 26 rows (130 m) from the goal."),
