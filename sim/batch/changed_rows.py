@@ -199,23 +199,20 @@ def _move_where_changed(
 
     `going`, `standing`: what is kept of the base, as `keep_costs` takes it, where there is a way.
     """
-    columns = size[0]
-    known, brakes = facts[GOING], facts[GOING, BRAKED] == 1
-    least, move = np.int64(FAR), np.int64(-1)
-    if known[LEAST] < FAR:
-        own_row = _roll_changed(going, seen, changed, cell, columns, episode_tick, False)
-        if (changed == cell // columns).any():
-            brakes = own_row
-        if brakes and not known[BRAKED]:
-            return np.int64(-1)
-        least, move = _decided(scratch, changed, cell, columns, limit, swept, weights, known, going, False)
-        if move < 0 or not brakes:
-            return move
-    else:
+    known, stays, columns = facts[GOING], facts[STANDING_STILL], size[0]
+    if known[LEAST] == FAR:
         return _changed_without_a_way(
             scratch, seen, changed, safe, cell, episode_tick, limit, size, swept, last, facts
         )
-    stays = facts[STANDING_STILL]
+    brakes = known[BRAKED] == 1
+    own_row = _roll_changed(going, seen, changed, cell, columns, episode_tick, False)
+    if (changed == cell // columns).any():
+        brakes = own_row
+    if brakes and not known[BRAKED]:
+        return np.int64(-1)
+    least, move = _decided(scratch, changed, cell, columns, limit, swept, weights, known, going, False)
+    if move < 0 or not brakes:
+        return move
     if stays[LEAST] < FAR:
         _roll_changed(standing, seen, changed, cell, columns, episode_tick, True)
         stayed, found = _decided(
